@@ -1,0 +1,142 @@
+"""Cases: what every case has, numerical and physical parameters, checked once when the case is made."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, Field, model_serializer, model_validator
+
+from sphframe.geometry import Region, Wall
+from sphframe.interfaces import RigidBody
+
+__all__ = ["Case", "Component", "Diagnostic", "Fields", "Gauge", "Probe", "Scene", "quantity"]
+
+Array = NDArray[np.float64]
+
+
+class Component(BaseModel):
+    """A component chosen by name, with its options: ``"mls-linear"`` or ``{"name": "sfdi", "form": "printed"}``."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str
+    options: dict[str, Any] = {}
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_name_or_table(cls, given: Any) -> Any:
+        if isinstance(given, str):
+            return {"name": given}
+        if isinstance(given, Mapping) and "name" in given:
+            return {"name": given["name"], "options": {k: v for k, v in given.items() if k != "name"}}
+        return given
+
+    @model_serializer
+    def _as_table(self) -> dict[str, Any]:
+        return {"name": self.name, **self.options}
+
+
+def quantity(default: Any, unit: str, description: str, **bounds: Any) -> Any:
+    """A parameter of a case with its unit; ``default`` may be ``...`` for a required one."""
+    return Field(default, description=description, json_schema_extra={"unit": unit}, **bounds)
+
+
+class Fields(NamedTuple):
+    """The fluid at one instant: position and velocity (n, dim), density and pressure (n,), in SI units."""
+
+    position: Array
+    velocity: Array
+    density: Array
+    pressure: Array
+
+
+class Probe(BaseModel):
+    """A pressure sensor: a point, or a disc of ``radius`` over whose wall-parallel diameter the pressure is averaged."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str
+    position: tuple[float, ...]
+    radius: Annotated[float, Field(ge=0)] = 0.0
+    tangent: tuple[float, ...] | None = None
+    """unit vector along the wall, needed for a disc"""
+
+
+class Gauge(BaseModel):
+    """A free-surface elevation gauge at the horizontal position ``position`` (x in 2-D; x, y in 3-D)."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str
+    position: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """A number computed from the fluid whenever the probes are sampled."""
+
+    name: str
+    unit: str
+    long_name: str
+    function: Callable[[Fields], float]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What a case puts into the world, in SI units; gravity points along the last axis, downwards."""
+
+    walls: tuple[Wall, ...]
+    fluid: tuple[Region, ...]
+    depth: float
+    """still water depth H: the scale of pressure (rho g H), time (sqrt(H/g)) and of the default sound speed"""
+    domain: tuple[tuple[float, ...], tuple[float, ...]]
+    """lower and upper corner of the box that no particle may leave"""
+    probes: tuple[Probe, ...] = ()
+    gauges: tuple[Gauge, ...] = ()
+    bodies: Mapping[str, RigidBody] = field(default_factory=dict)
+    """the bodies that carry walls, by the name that the walls refer to"""
+    initial_pressure: Callable[[Array], Array] | None = None
+    """p(position (n, dim)) -> (n,), Pa; None is the compressible rest state below the still water level"""
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+
+class Case(BaseModel, ABC):
+    """A case: its parameters are fields with units; :meth:`scene` draws it."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    title: ClassVar[str]
+    """one line that says what the case is"""
+    presets: ClassVar[Mapping[str, Mapping[str, Any]]] = {}
+    """named sets of parameters, such as those of a paper"""
+
+    dimension: Literal[2, 3] = quantity(2, "1", "dimension of space")
+    particle_spacing: float = quantity(..., "m", "spacing of the particles at the start", gt=0)
+    smoothing_length_ratio: float = quantity(1.3, "1", "smoothing length over particle spacing", ge=1.0, le=3.0)
+    reference_density: float = quantity(1000.0, "kg m-3", "density of the fluid at zero pressure", gt=0)
+    gravity: float = quantity(9.81, "m s-2", "acceleration of gravity, downwards along the last axis", ge=0)
+    sound_speed: float | None = quantity(None, "m s-1", "reference sound speed; by default 20 sqrt(g H)", gt=0)
+    density_diffusion: float = quantity(0.1, "1", "coefficient delta of the density diffusion", ge=0)
+    artificial_viscosity: float = quantity(0.02, "1", "coefficient alpha of the artificial viscosity", ge=0)
+    slip: Literal["free", "no"] = quantity("free", "1", "slip condition at the walls")
+    hydrostatic_lift: Literal["balanced", "mirror"] = quantity(
+        "balanced", "1", "how the hydrostatic pressure difference to the ghost is added"
+    )
+    interpolator: Component = quantity(Component(name="improved-shepard"), "1", "boundary interpolation method")
+    kernel: Component = quantity(Component(name="gaussian"), "1", "smoothing kernel")
+    equation_of_state: Component = quantity(Component(name="linear"), "1", "equation of state")
+    integrator: Component = quantity(Component(name="symplectic"), "1", "time integration scheme")
+    time_step: float | None = quantity(None, "s", "fixed time step; by default adaptive by the Courant number", gt=0)
+    courant_number: float | None = quantity(
+        None, "1", "(c0 + |u|max) dt / h of the adaptive time step; by default the integrator's own", gt=0
+    )
+    until: float = quantity(..., "s", "time at which the run ends", gt=0)
+    frame_interval: float = quantity(..., "s", "time between stored frames of all particles", gt=0)
+    probe_interval: float = quantity(..., "s", "time between samples of probes, energies and diagnostics", gt=0)
+
+    @abstractmethod
+    def scene(self) -> Scene:
+        """Draw the case: walls, fluid, bodies, probes."""

@@ -1,0 +1,27 @@
+"""Interfaces: what authors subclass. Nothing here imports another room."""
+
+from sphframe.interfaces.boundary_interpolator import BoundaryInterpolator, WeightsFunction
+from sphframe.interfaces.equation_of_state import EquationOfState
+from sphframe.interfaces.integrator import Integrator, System
+from sphframe.interfaces.kernel import CompiledKernel, Kernel
+from sphframe.interfaces.rigid_body import Motion, RigidBody
+from sphframe.interfaces.traits import DRY, OK, SINGULAR, TOO_FEW, EvaluationPoint, Status, Traits
+
+__all__ = [
+    "DRY",
+    "OK",
+    "SINGULAR",
+    "TOO_FEW",
+    "BoundaryInterpolator",
+    "CompiledKernel",
+    "EquationOfState",
+    "EvaluationPoint",
+    "Integrator",
+    "Kernel",
+    "Motion",
+    "RigidBody",
+    "Status",
+    "System",
+    "Traits",
+    "WeightsFunction",
+]

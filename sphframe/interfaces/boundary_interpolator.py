@@ -1,0 +1,96 @@
+"""Interfaces: how the fluid is interpolated to an evaluation point of the boundary."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sphframe.interfaces.kernel import CompiledKernel
+from sphframe.interfaces.traits import Traits
+
+__all__ = ["BoundaryInterpolator", "WeightsFunction"]
+
+Array = NDArray[np.float64]
+WeightsFunction = Callable[[Array, Array, Array, Array, float, Array, Array], int]
+
+
+class BoundaryInterpolator(ABC):
+    """A linear rule, value(r) = sum_j Phi_j f_j, from the fluid particles around r to a value at r.
+
+    An author declares :attr:`traits` and returns the weights from :meth:`point_weights`. Options of a method are
+    the fields of a frozen dataclass, checked in ``__post_init__``::
+
+        @dataclass(frozen=True)
+        class Nearest(BoundaryInterpolator):
+            traits = Traits(non_negative=True, range_restricted=True)
+
+            def point_weights(self, kernel, dim):
+                def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+                    ...
+                    return OK
+                return weights
+    """
+
+    @property
+    @abstractmethod
+    def traits(self) -> Traits:
+        """What the method promises. A plain class attribute will do."""
+
+    @abstractmethod
+    def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
+        """Return the function that computes the weights of ONE evaluation point.
+
+        Parameters
+        ----------
+        kernel: compiled kernel functions, for methods that need the kernel elsewhere than at the evaluation point.
+        dim: 2 or 3, a constant of the compiled function.
+
+        Returns
+        -------
+        A function ``weights(offsets, distances, kernel_values, volumes, support, lift, out) -> status``, compiled
+        by sphframe with Numba. It must not allocate, raise, or write anywhere but to ``out``.
+
+        ``offsets`` (n, dim): x_j - r, in m; ``distances`` (n,): their lengths, 0 <= r_j < support;
+        ``kernel_values`` (n,): W(r_j, h) in m^-dim; ``volumes`` (n,): V_j in m^dim; ``support``: R in m;
+        ``lift`` (dim,): from the evaluation point to the ghost, non-zero only for pressure and only when
+        ``traits.evaluation_point`` is EXTRAPOLATED; ``out`` (n,): where the weights go. n >= 1 always: a point
+        without neighbours is DRY and never reaches the method.
+
+        It returns OK, or TOO_FEW or SINGULAR, in which case ``out`` is overwritten by :meth:`fallback_weights`.
+        """
+
+    def fallback_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
+        """Return the weights used where :meth:`point_weights` answers TOO_FEW or SINGULAR.
+
+        The default is the kernel average, Phi_j = W_j V_j / sum_k W_k V_k, which exists for every cloud.
+        """
+        return kernel_average
+
+
+def kernel_average(
+    offsets: Array,
+    distances: Array,
+    kernel_values: Array,
+    volumes: Array,
+    support: float,
+    lift: Array,
+    out: Array,
+) -> int:
+    """Phi_j = W_j V_j / sum_k W_k V_k; the nearest particle alone where every W_k V_k is zero in floating point."""
+    n = distances.shape[0]
+    total = 0.0
+    nearest = 0
+    for j in range(n):
+        out[j] = kernel_values[j] * volumes[j]
+        total += out[j]
+        if distances[j] < distances[nearest]:
+            nearest = j
+    if total > 0.0:
+        for j in range(n):
+            out[j] /= total
+    else:
+        for j in range(n):
+            out[j] = 0.0
+        out[nearest] = 1.0
+    return 0

@@ -1,0 +1,50 @@
+"""Interfaces: the smoothing kernel."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from typing import Any, ClassVar, NamedTuple
+
+__all__ = ["CompiledKernel", "Kernel", "ScalarFunction"]
+
+ScalarFunction = Callable[[float], float]
+
+
+class Kernel(ABC):
+    """A radial smoothing kernel with compact support.
+
+    With q = r/h and sigma_d the normalisation in d dimensions::
+
+        W(x)      = sigma_d / h^d     * w(q)
+        grad W(x) = sigma_d / h^(d+2) * (w'(q)/q) * x
+
+    An author supplies w, w'(q)/q (finite at q = 0) and sigma_d. The two functions are compiled by sphframe: plain
+    arithmetic and ``math`` on one float. They are only called with 0 <= q < support.
+    """
+
+    support: ClassVar[float]
+    """cut-off radius in smoothing lengths, R/h"""
+
+    @abstractmethod
+    def value_function(self) -> ScalarFunction:
+        """Return the function w(q)."""
+
+    @abstractmethod
+    def gradient_function(self) -> ScalarFunction:
+        """Return the function w'(q)/q."""
+
+    @abstractmethod
+    def normalisation(self, dim: int) -> float:
+        """Return sigma_d, such that the integral of W over the support is one, for dim 1, 2 or 3."""
+
+
+class CompiledKernel(NamedTuple):
+    """What an interpolation method is given of the kernel when its weights are built.
+
+    ``value`` and ``gradient`` are compiled functions of q (see :class:`Kernel`), ``support`` is R/h and
+    ``normalisation`` is sigma_d for the dimension at hand. Inside the weights function h = R / support.
+    """
+
+    value: Any
+    gradient: Any
+    support: float
+    normalisation: float

@@ -1,0 +1,48 @@
+"""Interfaces: the motion of a rigid body that carries walls."""
+
+from abc import ABC, abstractmethod
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Motion", "RigidBody"]
+
+Array = NDArray[np.float64]
+
+
+class Motion(NamedTuple):
+    """Position, velocity and acceleration in generalised coordinates.
+
+    Each is an array of displacements of the body from where its walls were drawn, followed by rotations about its
+    centre: in 2-D ``(x, y, angle)`` in (m, m, rad), shape (3,); in 3-D ``(x, y, z)`` in m, shape (3,).
+    """
+
+    position: Array
+    velocity: Array
+    acceleration: Array
+
+
+class RigidBody(ABC):
+    """Load -> motion."""
+
+    needs_load: ClassVar[bool] = False
+    """whether :meth:`motion` uses the load, which costs a sum over the wall's neighbours at every stage"""
+
+    @abstractmethod
+    def motion(self, time: float, position: Array, velocity: Array, load: Array) -> Motion:
+        """Return the body's motion at ``time``.
+
+        Parameters
+        ----------
+        time: in s.
+        position, velocity: generalised coordinates as advanced by the integrator with the acceleration returned
+            before; zero at the start.
+        load: force and moment of the fluid on the body, (N, N, N m) per metre of width in 2-D, (N, N, N) in 3-D;
+            zero when ``needs_load`` is false.
+
+        Returns
+        -------
+        The motion. A prescribed body ignores the arguments and returns functions of time; a dynamic body
+        returns the position and velocity it was given (or corrects them, at a stop) and its acceleration.
+        """

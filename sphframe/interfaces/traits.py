@@ -1,0 +1,81 @@
+"""Interfaces: what an interpolation method promises, and what it reports.
+
+A method declares a :class:`Traits`; the verification suite proves each promise. A method answers each evaluation
+point with a :class:`Status`; statuses are counted during a run and never raised inside a compiled loop.
+"""
+
+import enum
+from dataclasses import dataclass
+
+__all__ = ["DRY", "OK", "SINGULAR", "TOO_FEW", "EvaluationPoint", "Status", "Traits"]
+
+
+class Status(enum.IntEnum):
+    """What became of one evaluation point. Plain integers of the same names exist for compiled functions."""
+
+    OK = 0
+    DRY = 1
+    TOO_FEW = 2
+    SINGULAR = 3
+
+    @property
+    def advice(self) -> str:
+        """What the status means and what to do about it."""
+        return _ADVICE[self]
+
+
+_ADVICE = {
+    Status.OK: "the method's own weights were used",
+    Status.DRY: "no fluid within the support: pressure 0 (free surface); expected away from the fluid",
+    Status.TOO_FEW: "fewer neighbours than the method needs: its fallback was used; expected in spray and thin sheets",
+    Status.SINGULAR: (
+        "the neighbours lie so that the method's system is ill-conditioned (for example on one line): its fallback"
+        " was used; expected in thin sheets, elsewhere refine the particle spacing or choose a lower order"
+    ),
+}
+
+OK = int(Status.OK)
+DRY = int(Status.DRY)
+TOO_FEW = int(Status.TOO_FEW)
+SINGULAR = int(Status.SINGULAR)
+
+
+class EvaluationPoint(enum.StrEnum):
+    """Where a method evaluates the field of a ghost particle."""
+
+    MIRROR = "mirror"
+    """at the mirror point inside the fluid; the framework adds the hydrostatic lift from there to the ghost"""
+    GHOST = "ghost"
+    """at the ghost particle itself (Adami et al. 2012)"""
+    EXTRAPOLATED = "extrapolated"
+    """at the mirror point, extrapolated along ``lift`` to the ghost by the weights themselves (mDBC)"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Traits:
+    """Promises of an interpolation method, value(r) = sum_j Phi_j f_j. What is promised is tested.
+
+    Attributes
+    ----------
+    partition_of_unity: sum_j Phi_j = 1 wherever the status is not DRY.
+    non_negative: Phi_j >= 0.
+    range_restricted: min f <= value <= max f.
+    reproduces_degree: the highest polynomial degree reproduced exactly when the status is OK.
+    fewest_points: neighbours needed for status OK in 2-D and in 3-D (in general position).
+    interpolates_particles: at a particle the value is that particle's own.
+    rotation_invariant: rotating the cloud leaves the weights unchanged.
+    volume_independent: the weights do not depend on the particles' volumes.
+    continuous: the weights are continuous in the evaluation point while no particle enters or leaves the support.
+    evaluation_point: where the field of a ghost particle is evaluated.
+    """
+
+    partition_of_unity: bool = True
+    non_negative: bool = False
+    range_restricted: bool = False
+    reproduces_degree: int = 0
+    fewest_points: tuple[int, int] = (1, 1)
+    interpolates_particles: bool = False
+    rotation_invariant: bool = True
+    volume_independent: bool = False
+    continuous: bool = True
+    evaluation_point: EvaluationPoint = EvaluationPoint.MIRROR
