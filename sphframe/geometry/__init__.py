@@ -1,0 +1,16 @@
+"""Geometry: walls -> fluid lattice, ghost particles, mirror points."""
+
+from sphframe.geometry.shapes import BoxRegion, PolygonRegion, Region, lattice
+from sphframe.geometry.walls import BoxWall, GhostPoints, PolygonWall, Wall, wall_ghosts
+
+__all__ = [
+    "BoxRegion",
+    "BoxWall",
+    "GhostPoints",
+    "PolygonRegion",
+    "PolygonWall",
+    "Region",
+    "Wall",
+    "lattice",
+    "wall_ghosts",
+]

@@ -1,0 +1,92 @@
+"""Geometry: regions that are filled with fluid, on a square or cubic lattice."""
+
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+__all__ = ["BoxRegion", "PolygonRegion", "Region", "inside_polygon", "lattice"]
+
+Array = NDArray[np.float64]
+
+
+class PolygonRegion(BaseModel):
+    """The inside of a simple polygon (2-D), corners in m in either sense of rotation."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    shape: Literal["polygon"] = "polygon"
+    points: tuple[tuple[float, float], ...] = Field(min_length=3)
+
+    @property
+    def lower(self) -> Array:
+        """Lower corner of the bounding box, m."""
+        return np.min(self.points, axis=0)
+
+    @property
+    def upper(self) -> Array:
+        """Upper corner of the bounding box, m."""
+        return np.max(self.points, axis=0)
+
+    def contains(self, position: Array) -> NDArray[np.bool_]:
+        """Whether each ``position`` (n, 2) lies inside."""
+        return inside_polygon(position, np.array(self.points))
+
+
+class BoxRegion(BaseModel):
+    """A rectangle (2-D) or box (3-D) between two corners, m."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    shape: Literal["box"] = "box"
+    lower: tuple[float, ...] = Field(min_length=2, max_length=3)
+    upper: tuple[float, ...] = Field(min_length=2, max_length=3)
+
+    @model_validator(mode="after")
+    def _ordered(self) -> "BoxRegion":
+        check_box(self.lower, self.upper)
+        return self
+
+    def contains(self, position: Array) -> NDArray[np.bool_]:
+        """Whether each ``position`` (n, dim) lies inside."""
+        return np.all((position >= self.lower) & (position <= self.upper), axis=1)
+
+
+Region = Annotated[PolygonRegion | BoxRegion, Field(discriminator="shape")]
+
+
+def check_box(lower: tuple[float, ...], upper: tuple[float, ...]) -> None:
+    """Raise ValueError unless ``lower`` is below ``upper`` along every axis."""
+    if len(lower) != len(upper) or any(low >= high for low, high in zip(lower, upper, strict=True)):
+        raise ValueError(
+            f"lower {lower} and upper {upper} do not span a box: give the same number of coordinates,"
+            " each of lower smaller than that of upper"
+        )
+
+
+def inside_polygon(position: Array, corners: Array) -> NDArray[np.bool_]:
+    """Whether each ``position`` (n, 2) lies inside the polygon ``corners`` (m, 2): crossing number."""
+    x, y = position[:, 0], position[:, 1]
+    inside = np.zeros(len(position), dtype=np.bool_)
+    for (x1, y1), (x2, y2) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        if y1 == y2:
+            continue
+        crosses = (y1 > y) != (y2 > y)
+        inside ^= crosses & (x < x1 + (y - y1) * (x2 - x1) / (y2 - y1))
+    return inside
+
+
+def lattice(region: PolygonRegion | BoxRegion, spacing: float) -> Array:
+    """Positions (n, dim) of the lattice cells whose centres lie in ``region``.
+
+    Cells of edge ``spacing`` are counted from the region's lower corner, so the first particle lies half a spacing
+    from a wall there. An edge that is not a whole number of spacings is rounded to the nearest one.
+    """
+    lower, upper = np.asarray(region.lower), np.asarray(region.upper)
+    counts = np.maximum(np.rint((upper - lower) / spacing).astype(int), 1)
+    axes = [low + (np.arange(count) + 0.5) * spacing for low, count in zip(lower, counts, strict=True)]
+    position = np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
+    if isinstance(region, BoxRegion):
+        return position
+    return position[region.contains(position)]

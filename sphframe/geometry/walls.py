@@ -1,0 +1,287 @@
+"""Geometry: walls, and the fixed ghost particles and mirror points that they need.
+
+A ghost particle at x_G outside the fluid belongs to the nearest point c of its wall. Its mirror point is
+x_M = 2 c - x_G, inside the fluid, and its reflection matrix S turns the velocity of the fluid relative to the wall at
+the mirror point into that of the ghost for free slip: S = 1 - 2 n n^T beside a face; the product of the faces'
+reflections where c lies on an edge or corner, which for two faces of a plane is the point reflection S = -1.
+
+Source: S. Marrone et al. (2011), doi:10.1016/j.cma.2010.12.016; X. Huang et al. (2019), doi:10.3390/w11051098,
+section 2.2.
+"""
+
+import itertools
+import math
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+from scipy.spatial import cKDTree
+
+from sphframe.geometry.shapes import check_box
+
+__all__ = ["BoxWall", "GhostPoints", "PolygonWall", "Wall", "wall_ghosts"]
+
+Array = NDArray[np.float64]
+
+_TOLERANCE = 1e-9
+
+
+@dataclass(frozen=True)
+class GhostPoints:
+    """Fixed ghost particles, in m, as drawn (before any body moves).
+
+    ``position`` (g, dim), ``mirror`` (g, dim), ``reflection`` (g, dim, dim) for free slip, ``wall`` (g,) index of the
+    wall that each belongs to.
+    """
+
+    position: Array
+    mirror: Array
+    reflection: Array
+    wall: NDArray[np.int64]
+
+
+class PolygonWall(BaseModel):
+    """A polyline in 2-D with the fluid on its LEFT when it is traversed; ``closed`` joins the last point to the first.
+
+    A tank is drawn from the top of its left wall, down, along the bed and up the right wall; an obstacle in the
+    fluid is a closed polygon drawn clockwise.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    shape: Literal["polygon"] = "polygon"
+    name: str = "wall"
+    points: tuple[tuple[float, float], ...] = Field(min_length=2)
+    closed: bool = False
+    body: str | None = None
+    """name of the body that carries the wall; None is at rest"""
+
+    @model_validator(mode="after")
+    def _distinct_points(self) -> "PolygonWall":
+        start, end = self.segments()
+        if np.any(np.linalg.norm(end - start, axis=1) <= 0.0):
+            raise ValueError(f"wall {self.name!r} has two equal points in a row; give each corner once")
+        return self
+
+    @property
+    def dimension(self) -> int:
+        """Dimension of space."""
+        return 2
+
+    def segments(self) -> tuple[Array, Array]:
+        """Start and end points (m, 2) of the segments."""
+        points = np.array(self.points, dtype=np.float64)
+        if self.closed:
+            return points, np.roll(points, -1, axis=0)
+        return points[:-1], points[1:]
+
+    def outline(self) -> list[Array]:
+        """Polylines (k, dim) that draw the wall."""
+        points = np.array(self.points, dtype=np.float64)
+        return [np.vstack([points, points[:1]]) if self.closed else points]
+
+    def candidates(self, spacing: float, layers: int) -> tuple[Array, Array]:
+        """Candidate ghost positions and the depth of each behind the wall."""
+        start, end = self.segments()
+        tangent = (end - start) / np.linalg.norm(end - start, axis=1, keepdims=True)
+        normal = np.stack([tangent[:, 1], -tangent[:, 0]], axis=1)
+        depths = (np.arange(layers) + 0.5) * spacing
+        found: list[Array] = []
+        for a, b, n in zip(start, end, normal, strict=True):
+            count = max(round(float(np.linalg.norm(b - a)) / spacing), 1)
+            along = a + ((np.arange(count) + 0.5) / count)[:, None] * (b - a)
+            found.extend(along + depth * n for depth in depths)
+        last = len(start) if self.closed else len(start) - 1
+        for i in range(last):
+            k = (i + 1) % len(start)
+            found.append(_corner_ghosts(start[k], tangent[i], normal[i], tangent[k], normal[k], depths))
+        position = np.vstack(found)
+        foot, _ = self.nearest(position)
+        return position, np.linalg.norm(position - foot, axis=1)
+
+    def nearest(self, position: Array) -> tuple[Array, Array]:
+        """Nearest wall points (n, 2) to ``position`` (n, 2) and the free-slip reflection matrices (n, 2, 2)."""
+        start, end = self.segments()
+        best = np.full(len(position), np.inf)
+        foot = np.zeros_like(position)
+        at_corner = np.zeros(len(position), dtype=np.bool_)
+        for a, b in zip(start, end, strict=True):
+            edge = b - a
+            t = np.clip((position - a) @ edge / (edge @ edge), 0.0, 1.0)
+            point = a + t[:, None] * edge
+            distance = np.linalg.norm(position - point, axis=1)
+            closer = distance < best - _TOLERANCE * np.linalg.norm(edge)
+            best[closer] = distance[closer]
+            foot[closer] = point[closer]
+            beyond = np.abs((position - point) @ edge) > _TOLERANCE * (edge @ edge)
+            at_corner[closer] = beyond[closer]
+        return foot, _reflections(position - foot, at_corner)
+
+    def is_behind(self, position: Array) -> NDArray[np.bool_]:
+        """Whether each ``position`` (n, 2) lies behind the wall (outside the fluid), judged at the nearest point.
+
+        Beyond the open ends of a polyline nothing is behind it.
+        """
+        start, end = self.segments()
+        best = np.full(len(position), np.inf)
+        side = np.zeros(len(position))
+        free_ends = np.zeros(len(position), dtype=np.bool_)
+        for k, (a, b) in enumerate(zip(start, end, strict=True)):
+            edge = b - a
+            raw = (position - a) @ edge / (edge @ edge)
+            t = np.clip(raw, 0.0, 1.0)
+            offset = position - a - t[:, None] * edge
+            distance = np.linalg.norm(offset, axis=1)
+            length = float(np.linalg.norm(edge))
+            across = (position[:, 0] - a[0]) * edge[1] - (position[:, 1] - a[1]) * edge[0]
+            sine = across / (length * np.maximum(distance, 1e-300))
+            tie = np.abs(distance - best) <= _TOLERANCE * length
+            closer = (distance < best) & ~tie
+            # at a corner two segments are equally near: the one seen more squarely decides
+            take = closer | (tie & (np.abs(sine) > np.abs(side)))
+            side[take] = sine[take]
+            open_end = ((k == 0) & (raw < 0.0)) | ((k == len(start) - 1) & (raw > 1.0))
+            free_ends[take] = (open_end & (not self.closed))[take]
+            best = np.minimum(best, distance)
+        return (side > 0.0) & ~free_ends
+
+
+class BoxWall(BaseModel):
+    """A rectangular (2-D) or box-shaped (3-D) container around the fluid, with some faces left open."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    shape: Literal["box"] = "box"
+    name: str = "wall"
+    lower: tuple[float, ...] = Field(min_length=2, max_length=3)
+    upper: tuple[float, ...] = Field(min_length=2, max_length=3)
+    open_faces: tuple[Literal["-x", "+x", "-y", "+y", "-z", "+z"], ...] = ()
+    body: str | None = None
+
+    @model_validator(mode="after")
+    def _box(self) -> "BoxWall":
+        check_box(self.lower, self.upper)
+        if self.dimension == 2 and any(face[1] == "z" for face in self.open_faces):
+            raise ValueError(f"open_faces {self.open_faces} name z, but wall {self.name!r} is two-dimensional")
+        return self
+
+    @property
+    def dimension(self) -> int:
+        """Dimension of space."""
+        return len(self.lower)
+
+    def outline(self) -> list[Array]:
+        """Polylines (k, dim) that draw the box's edges."""
+        low, high = np.array(self.lower), np.array(self.upper)
+        lines = []
+        for axis in range(self.dimension):
+            for ends in itertools.product((0, 1), repeat=self.dimension - 1):
+                first = np.where(np.insert(ends, axis, 0), high, low)
+                second = np.where(np.insert(ends, axis, 1), high, low)
+                lines.append(np.array([first, second]))
+        return lines
+
+    def _reach(self) -> tuple[Array, Array]:
+        """Bounds of the closed part: an open face lies at infinity."""
+        low, high = np.array(self.lower, dtype=np.float64), np.array(self.upper, dtype=np.float64)
+        for sign, axis in self.open_faces:
+            if sign == "-":
+                low["xyz".index(axis)] = -np.inf
+            else:
+                high["xyz".index(axis)] = np.inf
+        return low, high
+
+    def candidates(self, spacing: float, layers: int) -> tuple[Array, Array]:
+        """Candidate ghost positions and the depth of each behind the wall."""
+        low, high = np.array(self.lower), np.array(self.upper)
+        reach_low, reach_high = self._reach()
+        counts = np.maximum(np.rint((high - low) / spacing).astype(int), 1)
+        axes = []
+        for k in range(self.dimension):
+            step = (high[k] - low[k]) / counts[k]
+            before = 0 if np.isinf(reach_low[k]) else layers
+            after = 0 if np.isinf(reach_high[k]) else layers
+            axes.append(low[k] + (np.arange(-before, counts[k] + after) + 0.5) * step)
+        position = np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
+        outside = np.any((position < reach_low) | (position > reach_high), axis=1)
+        position = position[outside]
+        foot, _ = self.nearest(position)
+        return position, np.linalg.norm(position - foot, axis=1)
+
+    def nearest(self, position: Array) -> tuple[Array, Array]:
+        """Nearest wall points (n, dim) to outside ``position`` (n, dim) and the free-slip reflection matrices."""
+        low, high = self._reach()
+        foot = np.clip(position, low, high)
+        crossed = (position < low) | (position > high)
+        reflection = np.zeros((len(position), self.dimension, self.dimension))
+        for k in range(self.dimension):
+            reflection[:, k, k] = np.where(crossed[:, k], -1.0, 1.0)
+        return foot, reflection
+
+    def is_behind(self, position: Array) -> NDArray[np.bool_]:
+        """Whether each ``position`` (n, dim) lies behind a closed face (outside the fluid)."""
+        low, high = self._reach()
+        return np.any((position < low) | (position > high), axis=1)
+
+
+Wall = Annotated[PolygonWall | BoxWall, Field(discriminator="shape")]
+
+
+def wall_ghosts(walls: tuple[PolygonWall | BoxWall, ...], spacing: float, layers: int) -> GhostPoints:
+    """Place the ghosts of all ``walls``: layers at (k + 1/2) spacings behind each, corners filled.
+
+    A candidate that another face of the same wall is nearer to, that is not behind its wall, or that coincides with
+    an earlier ghost (closer than half a spacing) is left out.
+    """
+    dimension = walls[0].dimension
+    positions, mirrors, reflections, owners = [], [], [], []
+    for index, wall in enumerate(walls):
+        position, _ = wall.candidates(spacing, layers)
+        foot, reflection = wall.nearest(position)
+        depth = np.linalg.norm(position - foot, axis=1)
+        reach = math.sqrt(dimension) * layers * spacing
+        keep = wall.is_behind(position) & (depth > 0.2 * spacing) & (depth < reach)
+        positions.append(position[keep])
+        mirrors.append(2.0 * foot[keep] - position[keep])
+        reflections.append(reflection[keep])
+        owners.append(np.full(int(keep.sum()), index))
+    position = np.vstack(positions)
+    keep = _without_duplicates(position, 0.5 * spacing)
+    return GhostPoints(
+        position[keep], np.vstack(mirrors)[keep], np.vstack(reflections)[keep], np.concatenate(owners)[keep]
+    )
+
+
+def _corner_ghosts(corner: Array, t1: Array, n1: Array, t2: Array, n2: Array, depths: Array) -> Array:
+    """Ghosts in the wedge behind a corner where the polyline turns left (the fluid's angle is below 180 degrees)."""
+    turn = math.atan2(t1[0] * t2[1] - t1[1] * t2[0], float(t1 @ t2))
+    if turn <= _TOLERANCE:
+        return np.empty((0, 2))
+    if abs(turn - math.pi / 2) < 1e-6:  # a right angle: carry on the lattice of both faces
+        a, b = np.meshgrid(depths, depths, indexing="ij")
+        return corner + a.reshape(-1, 1) * n1 + b.reshape(-1, 1) * n2
+    rings = []
+    spacing = 2.0 * depths[0]
+    for radius in depths:
+        count = max(round(turn * radius / spacing), 1)
+        angle = math.atan2(n1[1], n1[0]) + turn * (np.arange(count) + 0.5) / count
+        rings.append(corner + radius * np.stack([np.cos(angle), np.sin(angle)], axis=1))
+    return np.vstack(rings)
+
+
+def _reflections(offset: Array, at_corner: NDArray[np.bool_]) -> Array:
+    """S = 1 - 2 n n^T along ``offset`` (n, 2), or -1 at corners."""
+    normal = offset / np.maximum(np.linalg.norm(offset, axis=1, keepdims=True), 1e-300)
+    identity = np.eye(2)
+    plane = identity - 2.0 * normal[:, :, None] * normal[:, None, :]
+    return np.where(at_corner[:, None, None], -identity, plane)
+
+
+def _without_duplicates(position: Array, closest: float) -> NDArray[np.bool_]:
+    keep = np.ones(len(position), dtype=np.bool_)
+    for i, j in sorted(cKDTree(position).query_pairs(closest * (1.0 - _TOLERANCE))):
+        if keep[i]:
+            keep[j] = False
+    return keep

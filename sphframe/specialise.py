@@ -1,0 +1,125 @@
+"""Joins jitted parts (kernel, equation of state, interpolator) into one compiled loop that is cached on disk.
+
+Numba caches a function under its qualified name and the time stamp of its file. A function that receives another
+as an argument or in a closure is never found again in that cache, and a change in a called function goes unnoticed.
+So a loop is made here from a *template*: a plain function whose parts are global names. The names are bound in a copy
+of its globals, and the copy's qualified name carries a hash of everything reachable from it (byte code, constants,
+closure values, global values, called functions): the next process finds the compiled loop, and an edited part makes
+a new one.
+"""
+
+import hashlib
+import inspect
+import types
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numba
+import numpy as np
+from numba.core.dispatcher import Dispatcher
+
+__all__ = ["compile_part", "fingerprint", "specialise"]
+
+_parts: dict[str, Any] = {}
+_loops: dict[str, Any] = {}
+
+
+def specialise(template: Callable[..., Any], parts: dict[str, Any], *, parallel: bool = True) -> Any:
+    """Compile ``template`` with the names in ``parts`` bound as globals.
+
+    Parameters
+    ----------
+    template: a module-level function that uses the names in ``parts`` as globals.
+    parts: functions (compiled here when they are plain Python) and constants (numbers, strings, booleans, tuples).
+    parallel: whether ``numba.prange`` in the template runs on several threads.
+
+    Returns
+    -------
+    The compiled function; the same object for the same template and equal parts.
+    """
+    bound = {name: compile_part(part) if callable(part) else part for name, part in parts.items()}
+    function = _rebind(template, bound)
+    key = f"{fingerprint(function)}{'p' if parallel else 's'}"
+    if key not in _loops:
+        function.__qualname__ = f"{template.__qualname__}_{key}"
+        _loops[key] = numba.njit(parallel=parallel, cache=True, error_model="numpy", fastmath={"contract"})(function)
+    return _loops[key]
+
+
+def compile_part(function: Callable[..., Any]) -> Any:
+    """Compile one part for use inside loops; a function with the same fingerprint is compiled once per process."""
+    if isinstance(function, Dispatcher) or _jit_is_disabled():
+        return function
+    key = fingerprint(function)
+    if key not in _parts:
+        _parts[key] = numba.njit(error_model="numpy", fastmath={"contract"})(function)
+    return _parts[key]
+
+
+def fingerprint(function: Any) -> str:
+    """Return a hash of all that the compiled form of ``function`` depends on."""
+    digest = hashlib.sha256()
+    for piece in _pieces(function, set()):
+        digest.update(piece.encode())
+        digest.update(b"\0")
+    return digest.hexdigest()[:20]
+
+
+def _jit_is_disabled() -> bool:
+    return bool(numba.config.DISABLE_JIT)
+
+
+def _rebind(template: Callable[..., Any], bound: dict[str, Any]) -> types.FunctionType:
+    plain = template.py_func if isinstance(template, Dispatcher) else template
+    assert isinstance(plain, types.FunctionType)
+    copy = types.FunctionType(
+        plain.__code__, {**plain.__globals__, **bound}, plain.__name__, plain.__defaults__, plain.__closure__
+    )
+    copy.__module__ = plain.__module__
+    return copy
+
+
+def _pieces(item: Any, seen: set[int]) -> Iterator[str]:
+    """Walk over everything that determines compiled code, as strings in a fixed order."""
+    if isinstance(item, Dispatcher):
+        yield repr(sorted(item.targetoptions.items(), key=repr))
+        item = item.py_func
+    if isinstance(item, types.FunctionType):
+        if id(item) in seen:
+            yield f"again {item.__qualname__}"
+            return
+        seen.add(id(item))
+        yield f"function {item.__module__} {_plain_name(item)}"
+        yield repr(item.__defaults__)
+        yield from _code_pieces(item.__code__)
+        scope = inspect.getclosurevars(item)
+        for names in (scope.nonlocals, scope.globals):
+            for name in sorted(names):
+                yield name
+                yield from _pieces(names[name], seen)
+    elif isinstance(item, types.ModuleType):
+        yield f"module {item.__name__}"
+    elif isinstance(item, np.ndarray):
+        yield f"array {item.dtype} {item.shape} {item.tobytes().hex()}"
+    elif isinstance(item, tuple):
+        yield f"{type(item).__qualname__} {len(item)}"
+        for part in item:
+            yield from _pieces(part, seen)
+    else:
+        yield f"{type(item).__qualname__} {item!r}"
+
+
+def _plain_name(function: types.FunctionType) -> str:
+    return function.__qualname__.split("<locals>")[-1]
+
+
+def _code_pieces(code: types.CodeType) -> Iterator[str]:
+    yield code.co_code.hex()
+    yield repr((code.co_names, code.co_varnames, code.co_freevars, code.co_cellvars))
+    for constant in code.co_consts:
+        if isinstance(constant, types.CodeType):
+            yield from _code_pieces(constant)
+        else:
+            yield f"{type(constant).__qualname__} {constant!r}"
+
+
