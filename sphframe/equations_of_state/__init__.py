@@ -1,0 +1,1 @@
+"""Equations of state: pressure as a function of density alone."""

@@ -1,0 +1,47 @@
+"""Equations of state: the linear one."""
+
+from dataclasses import dataclass
+
+from sphframe.interfaces import EquationOfState
+from sphframe.interfaces.equation_of_state import StateFunction
+
+__all__ = ["Linear"]
+
+
+def _pressure(density: float, reference_density: float, sound_speed: float) -> float:
+    return sound_speed * sound_speed * (density - reference_density)
+
+
+def _density(pressure: float, reference_density: float, sound_speed: float) -> float:
+    return reference_density + pressure / (sound_speed * sound_speed)
+
+
+def _sound_speed(density: float, reference_density: float, sound_speed: float) -> float:
+    return sound_speed
+
+
+@dataclass(frozen=True)
+class Linear(EquationOfState):
+    """p = c0^2 (rho - rho0), the equation of state of every case of Huang et al. (2019).
+
+    Its inverse is rho = rho0 + p/c0^2, its sound speed c0 at every density.
+
+    Source: Molteni & Colagrossi (2009), doi:10.1016/j.cpc.2008.12.004.
+
+    Examples
+    --------
+    >>> Linear().pressure_function()(1001.0, 1000.0, 40.0)
+    1600.0
+    """
+
+    def pressure_function(self) -> StateFunction:
+        """Return p = c0^2 (rho - rho0), in Pa."""
+        return _pressure
+
+    def density_function(self) -> StateFunction:
+        """Return rho = rho0 + p/c0^2, in kg/m^3."""
+        return _density
+
+    def sound_speed_function(self) -> StateFunction:
+        """Return c = c0, in m/s."""
+        return _sound_speed
