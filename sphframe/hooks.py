@@ -1,0 +1,96 @@
+"""Hooks: what happens during a run, told to any number of listeners.
+
+A listener is any object, class or module with functions marked by :data:`hookimpl`; the progress bar and the NetCDF
+writer are listeners. One that is declared in the entry-point group ``sphframe.hooks`` listens to every run::
+
+    from sphframe import hookimpl
+
+    @hookimpl
+    def sphframe_step_completed(simulation):
+        print(simulation.step, simulation.time)
+"""
+
+import inspect
+import warnings
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import pluggy
+
+from sphframe.errors import PluginError, PluginWarning
+from sphframe.registry import Entry, available, load
+
+if TYPE_CHECKING:
+    from sphframe.simulation import Simulation
+
+__all__ = ["hook_manager", "hookimpl", "hookspec"]
+
+hookspec = pluggy.HookspecMarker("sphframe")
+hookimpl = pluggy.HookimplMarker("sphframe")
+"""marks a function as a listener to the event of its name; it may leave out arguments it does not need"""
+
+
+class Events:
+    """The events of a run, in the order in which they happen."""
+
+    @hookspec
+    def sphframe_run_started(self, simulation: "Simulation") -> None:
+        """Listen to the start of a run: the initial state is complete, no step has been made."""
+
+    @hookspec
+    def sphframe_step_completed(self, simulation: "Simulation") -> None:
+        """Listen to the end of each time step. Called often: return quickly."""
+
+    @hookspec
+    def sphframe_probes_due(self, simulation: "Simulation") -> None:
+        """Listen to the times at which probes, energies and diagnostics are sampled, the start included."""
+
+    @hookspec
+    def sphframe_frame_due(self, simulation: "Simulation") -> None:
+        """Listen to the times at which all particles are stored, the start included."""
+
+    @hookspec
+    def sphframe_run_finished(self, simulation: "Simulation") -> None:
+        """Listen to the regular end of a run."""
+
+    @hookspec
+    def sphframe_run_failed(self, simulation: "Simulation", error: BaseException) -> None:
+        """Listen to the end of a run by ``error``, an interruption by the user included. Close what is open."""
+
+
+def hook_manager(plugins: Iterable[object] = ()) -> pluggy.PluginManager:
+    """Return the manager that tells events to ``plugins`` and to all installed hook plugins.
+
+    ``hook_manager(...).hook.sphframe_run_started(simulation=simulation)`` tells one event to all. An installed hook
+    plugin that cannot be used is left out with a :class:`~sphframe.errors.PluginWarning`: nobody asked for it by name.
+
+    Parameters
+    ----------
+    plugins: listeners of the caller, told before the installed ones.
+
+    Raises
+    ------
+    PluginError: when one of ``plugins`` is not a valid listener.
+    """
+    manager = pluggy.PluginManager("sphframe")
+    manager.add_hookspecs(Events)
+    for entry in available("hooks"):
+        try:
+            _register(manager, load("hooks", entry.name), entry)
+        except Exception as error:
+            warnings.warn(f"the run goes on without a plugin: {error}", PluginWarning, stacklevel=2)
+    for plugin in plugins:  # pluggy tells the last registered first
+        _register(manager, plugin, None)
+    return manager
+
+
+def _register(manager: pluggy.PluginManager, plugin: object, entry: Entry | None) -> None:
+    listener = plugin() if inspect.isclass(plugin) else plugin
+    label = entry.label if entry else f"hook plugin {listener!r:.80}"
+    try:
+        manager.register(listener)
+        manager.check_pending()
+    except (pluggy.PluginValidationError, ValueError) as error:
+        if manager.is_registered(listener):
+            manager.unregister(listener)
+        raise PluginError(f"{label} cannot be registered: {error}") from error

@@ -1,0 +1,27 @@
+"""Registry: components chosen by name, found through entry points, loaded when asked for.
+
+Built-in components are declared in the same way as everybody's, by one line of a distribution's pyproject.toml::
+
+    [project.entry-points."sphframe.interpolators"]
+    nearest = "my_package.nearest:Nearest"
+
+A package may say which version of the plugin interface it was written for, by ``SPHFRAME_API = (1, 0)`` in its
+``__init__.py`` (before it imports its modules); a package that is too old or too new is then refused with the side to
+upgrade.
+"""
+
+from sphframe.registry.components import check, create, load
+from sphframe.registry.entries import API_VERSION, KINDS, OLDEST_API_VERSION, Entry, available, clear, find
+
+__all__ = [
+    "API_VERSION",
+    "KINDS",
+    "OLDEST_API_VERSION",
+    "Entry",
+    "available",
+    "check",
+    "clear",
+    "create",
+    "find",
+    "load",
+]

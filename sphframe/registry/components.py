@@ -1,0 +1,165 @@
+"""Registry: components loaded by name, checked against their interface, and made with their options."""
+
+import inspect
+import sys
+from importlib import import_module
+from operator import attrgetter
+from typing import Any
+
+from sphframe.errors import ApiVersionError, BrokenPluginError, PluginError
+from sphframe.registry.entries import (
+    API_VERSION,
+    OLDEST_API_VERSION,
+    Entry,
+    available,
+    find,
+    is_address,
+    remember,
+)
+
+__all__ = ["check", "create", "load"]
+
+# Addresses, not imports: the registry lies below the cases, and an interface is needed only once something is loaded.
+_INTERFACES = {
+    "interpolators": "sphframe.interfaces:BoundaryInterpolator",
+    "kernels": "sphframe.interfaces:Kernel",
+    "equations_of_state": "sphframe.interfaces:EquationOfState",
+    "integrators": "sphframe.interfaces:Integrator",
+    "rigid_bodies": "sphframe.interfaces:RigidBody",
+    "cases": "sphframe.cases.case:Case",
+}
+
+
+def load(kind: str, name: str) -> Any:
+    """Load the component ``name``, or ``module:attribute``, and check that it is what its kind demands.
+
+    Returns
+    -------
+    A concrete subclass of the kind's interface; for hooks whatever the entry point names.
+
+    Raises
+    ------
+    InputError: when ``kind`` is not a kind.
+    UnknownComponentError: when nothing installed has that name.
+    ClashingPluginError: when several distributions claim it.
+    ApiVersionError: when the plugin was written for another version of the interface.
+    BrokenPluginError: when it cannot be imported, or is not a concrete subclass of the interface.
+    """
+    entry = find(kind, name)
+    try:
+        component = _loaded(entry)
+    except PluginError as error:
+        cause = error.__cause__ if isinstance(error, BrokenPluginError) else None
+        remember(entry, _short(cause) if cause else str(error))
+        raise
+    remember(entry, None)
+    return component
+
+
+def check(kind: str) -> list[Entry]:
+    """List the components of ``kind`` as :func:`available` does, after an attempt to load each of them."""
+    for entry in available(kind):
+        try:
+            load(kind, entry.name)
+        except PluginError:
+            continue
+    return available(kind)
+
+
+def create(kind: str, name: str, /, **options: Any) -> Any:
+    """Make the component ``name``, or ``module:attribute``, with ``options``.
+
+    Raises
+    ------
+    InputError: when an option is unknown, missing, of the wrong type, NaN or infinite, or refused by the component.
+    PluginError: as :func:`load` does.
+
+    Examples
+    --------
+    >>> from sphframe.registry import create
+    >>> create("equations_of_state", "tait", gamma=7)
+    Tait(gamma=7.0)
+    """
+    from sphframe.registry.options import construct  # pydantic is not worth importing for a list of names
+
+    component = load(kind, name)
+    return construct(component, find(kind, name).title, options)
+
+
+def _loaded(entry: Entry) -> Any:
+    if not is_address(entry.value):
+        raise BrokenPluginError(
+            f"{entry.label} is broken: its entry point {entry.value!r} is not of the form module:attribute;"
+            f" {_remedy(entry)}"
+        )
+    module_name, _, attribute = entry.value.partition(":")
+    try:
+        component = attrgetter(attribute)(import_module(module_name))
+    except (Exception, SystemExit) as error:
+        _check_api_version(entry, module_name, error)
+        raise BrokenPluginError(f"{entry.label} is broken: {_short(error)}; {_remedy(entry, error)}") from error
+    _check_api_version(entry, module_name, None)
+    if entry.kind in _INTERFACES:
+        _check_interface(entry, component)
+    return component
+
+
+def _check_api_version(entry: Entry, module_name: str, cause: BaseException | None) -> None:
+    """Refuse a plugin outside the window, looking for SPHFRAME_API in its module and the packages above."""
+    parts = module_name.split(".")
+    modules = [sys.modules.get(".".join(parts[:n])) for n in range(len(parts), 0, -1)]
+    versions = [getattr(module, "SPHFRAME_API", None) for module in modules]
+    version = next((version for version in versions if version is not None), API_VERSION)
+    if not (isinstance(version, tuple) and len(version) == 2 and all(type(number) is int for number in version)):
+        raise BrokenPluginError(
+            f"{entry.label} is broken: SPHFRAME_API = {version!r} must be a pair of whole numbers such as"
+            f" {API_VERSION}; {_remedy(entry)}"
+        ) from cause
+    if OLDEST_API_VERSION <= version <= API_VERSION:
+        return
+    written_for = f"{entry.label} was written for version {version[0]}.{version[1]} of sphframe's plugin interface"
+    if version > API_VERSION:
+        raise ApiVersionError(
+            f"{written_for}, and this sphframe offers {API_VERSION[0]}.{API_VERSION[1]}: upgrade sphframe"
+            f" (python -m pip install --upgrade sphframe)"
+        ) from cause
+    upgrade = f" (python -m pip install --upgrade {entry.distribution})" if entry.distribution else ""
+    raise ApiVersionError(
+        f"{written_for}, and this sphframe serves {OLDEST_API_VERSION[0]}.{OLDEST_API_VERSION[1]} and later:"
+        f" upgrade the plugin{upgrade}"
+    ) from cause
+
+
+def _check_interface(entry: Entry, component: Any) -> None:
+    home, _, name = _INTERFACES[entry.kind].partition(":")
+    interface = getattr(import_module(home), name)
+    if not (inspect.isclass(component) and issubclass(component, interface)):
+        raise BrokenPluginError(
+            f"{entry.label} is broken: {entry.value} is not a subclass of sphframe.{name} but"
+            f" {component!r:.80}; {_remedy(entry)}"
+        )
+    missing = sorted(getattr(component, "__abstractmethods__", ()))
+    if missing:
+        raise BrokenPluginError(
+            f"{entry.label} is broken: {entry.value} does not define {', '.join(missing)} of sphframe.{name};"
+            f" {_remedy(entry)}"
+        )
+
+
+def _short(error: BaseException) -> str:
+    return f"{type(error).__name__}: {error}".rstrip(": ")
+
+
+def _remedy(entry: Entry, error: BaseException | None = None) -> str:
+    module_name = entry.value.partition(":")[0]
+    missing = error.name if isinstance(error, ImportError) and error.name else None
+    if missing and missing.partition(".")[0] == "sphframe":
+        return "it asks sphframe for something that this version does not have: upgrade the one that is older"
+    if isinstance(error, ModuleNotFoundError) and missing and missing != module_name.partition(".")[0]:
+        return f"install what provides the module {missing!r}"
+    if not entry.distribution:
+        return "check its spelling, and that its folder is on PYTHONPATH" if error else "mend it there"
+    return (
+        f"reinstall or upgrade it (python -m pip install --upgrade --force-reinstall {entry.distribution}),"
+        f" or tell its authors"
+    )

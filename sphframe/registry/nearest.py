@@ -1,0 +1,30 @@
+"""Registry: the nearest of some names to one that was misspelt."""
+
+import difflib
+from collections.abc import Iterable
+
+__all__ = ["did_you_mean", "nearest"]
+
+
+def nearest(name: str, candidates: Iterable[str]) -> str | None:
+    """Return the candidate most like ``name``, whatever its case and hyphens, or None when none is alike.
+
+    Examples
+    --------
+    >>> nearest("Improved_Shepherd", ["shepard", "improved-shepard"])
+    'improved-shepard'
+    >>> nearest("fourier", ["shepard", "improved-shepard"])
+    """
+    plain = {_plain(candidate): candidate for candidate in candidates}
+    matches = difflib.get_close_matches(_plain(name), plain, n=1)
+    return plain[matches[0]] if matches else None
+
+
+def did_you_mean(name: str, candidates: Iterable[str]) -> str:
+    """Return ``"; did you mean 'x'?"`` to end a sentence with, or a full stop."""
+    match = nearest(name, candidates)
+    return f"; did you mean {match!r}?" if match else "."
+
+
+def _plain(name: str) -> str:
+    return name.lower().replace("_", "-").replace(" ", "-")
