@@ -29,6 +29,7 @@ if TYPE_CHECKING:
         Traits,
         WeightsFunction,
     )
+    from sphframe.interfaces.scratch import local_array
     from sphframe.output import open_dataset
     from sphframe.registry import available, create
     from sphframe.simulation import Run, Simulation, run
@@ -58,6 +59,7 @@ _HOMES = {
         "Traits",
         "WeightsFunction",
     ],
+    "sphframe.interfaces.scratch": ["local_array"],
     "sphframe.output": ["open_dataset"],
     "sphframe.registry": ["available", "create"],
     "sphframe.simulation": ["Run", "Simulation", "run"],
@@ -94,6 +96,7 @@ __all__ = [  # noqa: RUF022
     "create",
     "hookimpl",
     "load_case",
+    "local_array",
     "open_dataset",
     "run",
 ]

@@ -1,0 +1,8 @@
+from sphframe_mdbc import MDBC
+
+from sphframe.testing import parametrize_with_checks
+
+
+@parametrize_with_checks([MDBC()])
+def test_keeps_its_promises(method, check):
+    check(method)

@@ -1,0 +1,153 @@
+"""Moving least squares weights of degree one and two (Eqs. 8-9 of Huang et al. 2019)."""
+
+from dataclasses import dataclass
+
+from sphframe import (
+    OK,
+    SINGULAR,
+    TOO_FEW,
+    BoundaryInterpolator,
+    CompiledKernel,
+    Traits,
+    WeightsFunction,
+    local_array,
+)
+
+_THINNEST = 1e-8
+"""smallest pivot relative to its degree's own scale: the square of the relative thickness of the cloud"""
+
+
+@dataclass(frozen=True)
+class LinearMLS(BoundaryInterpolator):
+    """Moving least squares of degree one: exact on linear fields.
+
+    With the basis b_j = (1, x_j/h, y_j/h[, z_j/h]) about the evaluation point::
+
+        Phi_j = e_1 . M^-1 b_j W_j V_j,   M = sum_j b_j b_j^T W_j V_j
+
+    TOO_FEW below 3 (4) neighbours in 2-D (3-D); SINGULAR where the neighbours lie on one line (plane), found from the
+    pivots of M and not from a failed solve, which may succeed and return weights that sum to 0.6; SINGULAR too where
+    sum |Phi_j| exceeds ``amplification``. The fallback is the kernel average.
+
+    Source: Lancaster & Salkauskas (1981), doi:10.1090/S0025-5718-1981-0616367-1; Marrone et al. (2011),
+    doi:10.1016/j.cma.2010.12.016; Huang et al., Water 11 (2019).
+    """
+
+    amplification: float = 100.0
+    """largest sum |Phi_j|, by which noise may be amplified"""
+
+    traits = Traits(reproduces_degree=1, fewest_points=(3, 4))
+
+    def __post_init__(self) -> None:
+        _check_amplification(self.amplification)
+
+    def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
+        """Return the weights function."""
+        return _least_squares(1, kernel, dim, self.amplification)
+
+
+@dataclass(frozen=True)
+class QuadraticMLS(BoundaryInterpolator):
+    """Moving least squares of degree two: exact on quadratic fields.
+
+    As :class:`LinearMLS` with the full quadratic basis of 6 (10) terms in 2-D (3-D). TOO_FEW below 6 (10) neighbours,
+    SINGULAR where they lie on one conic (quadric). The fallback is the kernel average.
+    """
+
+    amplification: float = 100.0
+    """largest sum |Phi_j|, by which noise may be amplified"""
+
+    traits = Traits(reproduces_degree=2, fewest_points=(6, 10))
+
+    def __post_init__(self) -> None:
+        _check_amplification(self.amplification)
+
+    def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
+        """Return the weights function."""
+        return _least_squares(2, kernel, dim, self.amplification)
+
+
+def _least_squares(degree: int, kernel: CompiledKernel, dim: int, amplification: float) -> WeightsFunction:
+    terms = dim + 1 if degree == 1 else (dim + 1) * (dim + 2) // 2
+    entries = terms * terms
+    last = terms - 1
+    smoothing_lengths = kernel.support
+    thinnest = _THINNEST
+
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]
+        n = distances.shape[0]
+        if n < terms:
+            return TOO_FEW
+        per_length = smoothing_lengths / support
+        basis = local_array(terms)  # linear terms, then quadratic ones, then the constant
+        basis[last] = 1.0
+        matrix = local_array(entries)  # the lower triangle, by rows
+        for k in range(entries):
+            matrix[k] = 0.0
+        for j in range(n):
+            k = dim
+            for a in range(dim):
+                basis[a] = offsets[j, a] * per_length
+                if degree == 2:
+                    for b in range(a + 1):
+                        basis[k] = basis[a] * basis[b]
+                        k += 1
+            weight = kernel_values[j] * volumes[j]
+            for a in range(terms):
+                for b in range(a + 1):
+                    matrix[a * terms + b] += weight * basis[a] * basis[b]
+
+        # the scale of a pivot: the mean diagonal of the terms of its degree, which no rotation changes
+        linear_scale = 0.0
+        quadratic_scale = 0.0
+        for a in range(last):
+            if a < dim:
+                linear_scale += matrix[a * terms + a] / dim
+            else:
+                quadratic_scale += matrix[a * terms + a] / (last - dim)
+        constant_scale = matrix[entries - 1]
+
+        # M = L D L^T, with L below the diagonal
+        for a in range(terms):
+            for b in range(a):
+                for c in range(b):
+                    matrix[a * terms + b] -= matrix[a * terms + c] * matrix[b * terms + c] * matrix[c * terms + c]
+                matrix[a * terms + b] /= matrix[b * terms + b]
+            for c in range(a):
+                matrix[a * terms + a] -= matrix[a * terms + c] ** 2 * matrix[c * terms + c]
+            scale = linear_scale if a < dim else (quadratic_scale if a < last else constant_scale)
+            if not matrix[a * terms + a] > thinnest * scale:
+                return SINGULAR
+
+        # with the constant last, M c = e_last needs back substitution alone
+        solution = local_array(terms)
+        solution[last] = 1.0 / matrix[entries - 1]
+        for k in range(1, terms):
+            a = last - k
+            solution[a] = 0.0
+            for b in range(a + 1, terms):
+                solution[a] -= matrix[b * terms + a] * solution[b]
+
+        absolute_sum = 0.0
+        for j in range(n):
+            k = dim
+            polynomial = solution[last]
+            for a in range(dim):
+                basis[a] = offsets[j, a] * per_length
+                polynomial += solution[a] * basis[a]
+                if degree == 2:
+                    for b in range(a + 1):
+                        polynomial += solution[k] * basis[a] * basis[b]
+                        k += 1
+            out[j] = polynomial * kernel_values[j] * volumes[j]
+            absolute_sum += abs(out[j])
+        if not absolute_sum <= amplification:
+            return SINGULAR
+        return OK
+
+    return weights
+
+
+def _check_amplification(value: float) -> None:
+    if not value >= 1.0:
+        raise ValueError(f"amplification must be a number of at least 1, since the weights sum to one; got {value!r}")

@@ -1,0 +1,8 @@
+from sphframe_mls import LinearMLS, QuadraticMLS
+
+from sphframe.testing import parametrize_with_checks
+
+
+@parametrize_with_checks([LinearMLS(), QuadraticMLS()])
+def test_keeps_its_promises(method, check):
+    check(method)

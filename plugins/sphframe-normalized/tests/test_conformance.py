@@ -1,0 +1,8 @@
+from sphframe_normalized import Normalized
+
+from sphframe.testing import parametrize_with_checks
+
+
+@parametrize_with_checks([Normalized()])
+def test_keeps_its_promises(method, check):
+    check(method)

@@ -1,0 +1,119 @@
+"""Inverse-distance weights: Shepard's, and the improved ones of Huang et al. (2019)."""
+
+import math
+from dataclasses import dataclass
+
+from sphframe import OK, BoundaryInterpolator, CompiledKernel, Traits, WeightsFunction
+
+_TRAITS = Traits(
+    non_negative=True,
+    range_restricted=True,
+    interpolates_particles=True,
+    volume_independent=True,
+)
+
+
+@dataclass(frozen=True)
+class Shepard(BoundaryInterpolator):
+    """Shepard's weights (Eqs. 17-18 of Huang et al. 2019): Phi_j = r_j^-mu / sum_k r_k^-mu.
+
+    At r_j = 0 the value is that of the particle there, or the mean of all particles there: on a lattice, mirror points
+    do coincide with particles, and the printed formula divides zero by zero.
+
+    Source: Shepard (1968), doi:10.1145/800186.810616; Huang et al., Water 11 (2019).
+    """
+
+    mu: float = 2.0
+    """power of the distance, positive"""
+
+    traits = _TRAITS
+
+    def __post_init__(self) -> None:
+        _check_positive("mu", self.mu)
+
+    def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
+        """Return the weights function; it uses the distances alone."""
+        mu = _as_power(self.mu)
+
+        def weights(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]
+            n = distances.shape[0]
+            nearest = distances[0]
+            for j in range(1, n):
+                nearest = min(nearest, distances[j])
+            total = 0.0
+            for j in range(n):
+                if nearest > 0.0:
+                    out[j] = (nearest / distances[j]) ** mu  # relative to the nearest: no overflow
+                else:
+                    out[j] = 1.0 if distances[j] == 0.0 else 0.0
+                total += out[j]
+            for j in range(n):
+                out[j] /= total
+            return OK
+
+        return weights
+
+
+@dataclass(frozen=True)
+class ImprovedShepard(BoundaryInterpolator):
+    """Improved Shepard weights (Eqs. 19-21 of Huang et al. 2019), attenuated to zero at the cut-off R.
+
+    With s = r/R::
+
+        Phi_j = phi_j^mu / sum_k phi_k^mu,   phi(s) = beta(s)/s,   beta(s) = exp[-s^2 / (1 - s^attenuation)]
+
+    Departs from the paper: distances are scaled by R, since Eq. 20 as printed gives other weights in metres than in
+    millimetres; the particle volume of Eq. 21 is left out, with which the weights would not sum to one. Weights are
+    formed relative to the nearest particle, which has the largest: near the cut-off phi underflows, and a lone
+    particle there must still get weight 1. At r_j = 0 as for Shepard's.
+
+    Source: Huang et al., Water 11 (2019).
+    """
+
+    mu: float = 4.0
+    """power of the weights, positive"""
+    attenuation: float = 2.0
+    """the exponent lambda in beta, positive"""
+
+    traits = _TRAITS
+
+    def __post_init__(self) -> None:
+        _check_positive("mu", self.mu)
+        _check_positive("attenuation", self.attenuation)
+
+    def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
+        """Return the weights function; it uses the distances and the cut-off radius alone."""
+        mu, attenuation = _as_power(self.mu), _as_power(self.attenuation)
+        smallest = 1e-290  # 1 - s^attenuation may round to zero for s just below 1
+
+        def weights(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]
+            n = distances.shape[0]
+            nearest = distances[0]
+            for j in range(1, n):
+                nearest = min(nearest, distances[j])
+            s = nearest / support
+            largest_exponent = -s * s / max(1.0 - s**attenuation, smallest)
+            total = 0.0
+            for j in range(n):
+                if nearest > 0.0:
+                    s = distances[j] / support
+                    exponent = -s * s / max(1.0 - s**attenuation, smallest)
+                    out[j] = (nearest / distances[j] * math.exp(exponent - largest_exponent)) ** mu
+                else:
+                    out[j] = 1.0 if distances[j] == 0.0 else 0.0
+                total += out[j]
+            for j in range(n):
+                out[j] /= total
+            return OK
+
+        return weights
+
+
+def _check_positive(name: str, value: float) -> None:
+    if not (math.isfinite(value) and value > 0.0):
+        raise ValueError(f"{name} must be a positive number, got {value!r}")
+
+
+def _as_power(value: float) -> float:
+    """An integral exponent as an int, which is compiled to multiplications."""
+    return int(value) if float(value).is_integer() else float(value)

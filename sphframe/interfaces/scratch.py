@@ -1,0 +1,49 @@
+"""Interfaces: scratch memory for weights functions, which must not allocate."""
+
+from typing import Any
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.extending import lower_builtin, type_callable
+from numpy.typing import NDArray
+
+__all__ = ["local_array"]
+
+
+def local_array(size: int) -> NDArray[np.float64]:
+    """Return an uninitialised array of ``size`` floats that lives until the calling function returns.
+
+    In a compiled function it lies on the stack: it costs nothing, several threads do not wait for each other, and
+    the optimiser may keep all of it in registers. For that ``size`` must be a number known when the function is
+    compiled, such as a variable of the enclosing function; do not return the array. In plain Python it is an
+    ordinary array.
+
+    Why not ``numpy.empty`` inside a weights function: Numba allocates it on the heap for every evaluation point
+    (measured for the 3 by 3 matrix of 40 neighbours: 85 ns a point instead of 23 ns).
+    """
+    return np.empty(size)
+
+
+@type_callable(local_array)
+def _type_local_array(context: Any) -> Any:
+    def typer(size: Any) -> Any:
+        return types.Array(types.float64, 1, "C") if isinstance(size, types.IntegerLiteral) else None
+
+    return typer
+
+
+@lower_builtin(local_array, types.IntegerLiteral)
+def _lower_local_array(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    size = signature.args[0].literal_value
+    array = context.make_array(signature.return_type)(context, builder)
+    integer = context.get_value_type(types.intp)
+    array.data = cgutils.alloca_once(builder, ir.DoubleType(), size=size)
+    array.meminfo = cgutils.get_null_value(array.meminfo.type)
+    array.parent = cgutils.get_null_value(array.parent.type)
+    array.nitems = integer(size)
+    array.itemsize = integer(8)
+    array.shape = cgutils.pack_array(builder, [integer(size)])
+    array.strides = cgutils.pack_array(builder, [integer(8)])
+    return array._getvalue()
