@@ -1,0 +1,6 @@
+"""Output: a run becomes one NetCDF file that xarray opens at any moment."""
+
+from sphframe.output.reader import open_dataset
+from sphframe.output.writer import NetCDFWriter
+
+__all__ = ["NetCDFWriter", "open_dataset"]

@@ -1,0 +1,34 @@
+"""Output: one file, one writing run. A lock that the operating system drops when its process ends, however it ends."""
+
+import os
+import sys
+from pathlib import Path
+
+__all__ = ["lock_file"]
+
+
+def lock_file(path: Path) -> int | None:
+    """Lock ``path`` for the writing run and return the open descriptor that holds the lock; None if it is taken.
+
+    The lock is ``flock`` on the file itself: it leaves nothing behind and cannot go stale. Where the system or the
+    file system has no such lock (Windows, some network file systems), the descriptor is returned without one.
+    """
+    while True:
+        descriptor = os.open(path, os.O_RDWR)
+        if sys.platform != "win32":
+            import fcntl
+
+            try:
+                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                os.close(descriptor)
+                return None
+            except OSError:
+                return descriptor
+        if _is_same_file(descriptor, path):
+            return descriptor
+        os.close(descriptor)  # replaced between opening and locking
+
+
+def _is_same_file(descriptor: int, path: Path) -> bool:
+    return os.path.samestat(os.fstat(descriptor), os.stat(path))

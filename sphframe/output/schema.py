@@ -1,0 +1,126 @@
+"""Output: the variables of a run's file, with their dimensions, units and meaning, all in one place.
+
+Writer, reader, plots and exporters take names and units from here. The file follows the CF conventions 1.11.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import Final, Literal
+
+__all__ = ["CONVENTIONS", "FORMAT", "VARIABLES", "RunStatus", "Variable", "unit_of"]
+
+CONVENTIONS = "CF-1.11"
+FORMAT: Final = "NETCDF3_64BIT_DATA"
+"""CDF-5, the classic format: a fixed header followed by data, which a killed writer cannot make unreadable"""
+
+
+class RunStatus(IntEnum):
+    """How the run that wrote a file stands."""
+
+    RUNNING = 0
+    COMPLETED = 1
+    FAILED = 2
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One variable of the file.
+
+    Attributes
+    ----------
+    dimensions: names, slowest first. ``time`` counts frames and is the unlimited dimension; ``probe_time`` counts the
+        much more frequent samples of probes and sums.
+    unit: SI unit; see ``per_width``.
+    long_name: what it is, as it stands beside an axis.
+    type: ``f8``, ``i4``, or ``text`` (fixed-length UTF-8).
+    per_width: in 2-D the quantity is per metre of width, and its unit is divided by m.
+    attributes: further CF attributes.
+    """
+
+    dimensions: tuple[str, ...]
+    unit: str
+    long_name: str
+    type: Literal["f8", "i4", "text"] = "f8"
+    per_width: bool = False
+    attributes: Mapping[str, str] = field(default_factory=dict)
+
+
+def unit_of(variable: Variable, dimension: int) -> str:
+    """Return the unit of ``variable`` in ``dimension`` = 2 or 3.
+
+    >>> unit_of(VARIABLES["kinetic_energy"], 2), unit_of(VARIABLES["kinetic_energy"], 3)
+    ('J m-1', 'J')
+    """
+    return f"{variable.unit} m-1" if variable.per_width and dimension == 2 else variable.unit
+
+
+def _text(dimensions: tuple[str, ...], long_name: str) -> Variable:
+    return Variable(dimensions, "", long_name, "text")
+
+
+VARIABLES: Mapping[str, Variable] = {
+    # names along the dimensions
+    "space": _text(("space",), "axis of space; gravity points along the last one, downwards"),
+    "motion": _text(("motion",), "generalised coordinate of a body"),
+    "probe": _text(("probe",), "pressure probe"),
+    "gauge": _text(("gauge",), "free-surface gauge"),
+    "wall": _text(("wall",), "wall"),
+    "body": _text(("body",), "body that carries walls"),
+    "status": _text(("status",), "what became of the interpolation to a ghost particle"),
+    # what does not change
+    "run_status": Variable(
+        (), "1", "how the run stands", "i4", attributes={"flag_meanings": "running completed failed"}
+    ),
+    "run_message": _text((), "why the run failed"),
+    "probe_x": Variable(("probe",), "m", "position of the probe along x"),
+    "probe_y": Variable(("probe",), "m", "position of the probe along y"),
+    "probe_z": Variable(("probe",), "m", "position of the probe along z"),
+    "probe_radius": Variable(("probe",), "m", "radius over which the probe averages; 0 for a point"),
+    "gauge_x": Variable(("gauge",), "m", "position of the gauge along x"),
+    "gauge_y": Variable(("gauge",), "m", "position of the gauge along y"),
+    "outline_node": Variable(("node", "space"), "m", "points of the polylines that draw the walls, at the start"),
+    "outline_node_count": Variable(
+        ("outline",), "1", "points of each polyline", "i4", attributes={"sample_dimension": "node"}
+    ),
+    "outline_wall": Variable(("outline",), "1", "index of the wall that the polyline draws", "i4"),
+    "wall_body": Variable(("wall",), "1", "index of the body that carries the wall; -1 for a fixed wall", "i4"),
+    "ghost_position": Variable(("ghost", "space"), "m", "position of the ghost particle at the start"),
+    "ghost_mirror_position": Variable(("ghost", "space"), "m", "mirror point of the ghost particle at the start"),
+    # samples
+    "probe_time": Variable(("probe_time",), "s", "time of the samples"),
+    "step": Variable(("probe_time",), "1", "steps taken", "i4"),
+    "time_step": Variable(("probe_time",), "s", "time step"),
+    "wall_clock": Variable(("probe_time",), "s", "wall-clock time since the start of the run"),
+    "probe_pressure": Variable(("probe_time", "probe"), "Pa", "pressure at the probe"),
+    "gauge_elevation": Variable(("probe_time", "gauge"), "m", "elevation of the free surface"),
+    "kinetic_energy": Variable(("probe_time",), "J", "kinetic energy", per_width=True),
+    "potential_energy": Variable(("probe_time",), "J", "potential energy", per_width=True),
+    "internal_energy": Variable(("probe_time",), "J", "internal energy of compression", per_width=True),
+    "total_energy": Variable(("probe_time",), "J", "sum of kinetic, potential and internal energy", per_width=True),
+    "mass": Variable(("probe_time",), "kg", "mass of the fluid", per_width=True),
+    "interpolation_status": Variable(
+        ("probe_time", "status"), "1", "ghost particles by the status of their interpolation", "i4"
+    ),
+    "wall_force": Variable(
+        ("probe_time", "wall", "space"), "N", "force of the fluid on the wall, reaction of its ghosts", per_width=True
+    ),
+    "wall_force_by_pressure": Variable(
+        ("probe_time", "wall", "space"), "N", "force of the fluid on the wall, integral of pressure", per_width=True
+    ),
+    "body_position": Variable(("probe_time", "body", "motion"), "m", "displacement of the body (angles in rad)"),
+    "body_velocity": Variable(("probe_time", "body", "motion"), "m s-1", "velocity of the body (angles in rad)"),
+    "body_acceleration": Variable(
+        ("probe_time", "body", "motion"), "m s-2", "acceleration of the body (angles in rad)"
+    ),
+    # last of the fixed part: its last value is never zero, which tells a truncated file
+    "particle_mass": Variable(("particle",), "kg", "mass of the particle", per_width=True),
+    # frames
+    "time": Variable(("time",), "s", "time of the frames"),
+    "position": Variable(("time", "particle", "space"), "m", "position"),
+    "velocity": Variable(("time", "particle", "space"), "m s-1", "velocity"),
+    "pressure": Variable(("time", "particle"), "Pa", "pressure"),
+    "ghost_pressure": Variable(("time", "ghost"), "Pa", "pressure of the ghost particle"),
+    # last of every frame: never zero either
+    "density": Variable(("time", "particle"), "kg m-3", "density"),
+}

@@ -1,0 +1,254 @@
+"""Output: the file of a run holds what the run did, survives whatever ends it, and is never overwritten unasked."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from types import ModuleType
+
+import netCDF4
+import numpy as np
+import pytest
+import xarray as xr
+
+from sphframe.errors import InputError, OutputError
+from sphframe.output import NetCDFWriter, open_dataset
+from sphframe.output.schema import VARIABLES
+
+
+@pytest.fixture
+def written(tmp_path: Path, fake: ModuleType) -> Path:
+    path = tmp_path / "run.nc"
+    writer = NetCDFWriter(path)
+    simulation = fake.FakeSimulation()
+    writer.sphframe_run_started(simulation=simulation)
+    fake.play(writer, simulation, 31)
+    writer.sphframe_run_finished(simulation=simulation)
+    return path
+
+
+def test_values_come_back(written: Path) -> None:
+    dataset = open_dataset(written)
+    assert dict(dataset.sizes) | {"node": 5, "outline": 2} == dict(dataset.sizes)
+    assert dataset.sizes["time"] == 4
+    assert dataset.sizes["probe_time"] == 31
+    np.testing.assert_allclose(dataset.time, [0.0, 0.1, 0.2, 0.3])
+    np.testing.assert_allclose(dataset.position.isel(time=2, space=0), np.arange(50) + 0.2)
+    np.testing.assert_allclose(dataset.density.isel(time=3), 1000.3)
+    np.testing.assert_allclose(dataset.probe_pressure.sel(probe="Gefäß"), 1.0 + dataset.probe_time * 100.0)
+    np.testing.assert_allclose(dataset.total_energy, dataset.kinetic_energy + 3.0)
+    np.testing.assert_allclose(dataset.mass, 500.0)
+    np.testing.assert_allclose(dataset.front_position, 2.0 + dataset.probe_time)
+    np.testing.assert_allclose(dataset.body_position.sel(body="paddle", motion="x"), dataset.probe_time)
+    np.testing.assert_allclose(dataset.wall_force_by_pressure.sel(wall="tank", space="y"), 2.5)
+    assert dataset.interpolation_status.sel(status="OK").values.tolist() == [20] * 31
+    assert dataset.wall_body.values.tolist() == [-1, 0]
+    assert dataset.probe_y.sel(probe="Gefäß") == 0.1
+    assert dataset.gauge_elevation.gauge_x.values.tolist() == [0.5]
+    assert dataset.attrs["completed"] == "yes"
+
+
+def test_everything_has_unit_and_meaning(written: Path) -> None:
+    dataset = open_dataset(written)
+    for name, variable in dataset.variables.items():
+        assert variable.attrs["long_name"], f"{name} has no long_name"
+        if variable.dtype.kind in "fi":
+            assert "units" in variable.attrs, f"{name} has no units"
+    assert dataset.kinetic_energy.units == "J m-1", "energies of a 2-D run are per metre of width"
+    assert dataset.Conventions.startswith("CF-1.")
+
+
+def test_attributes_repeat_the_run(written: Path, fake: ModuleType) -> None:
+    attributes = open_dataset(written).attrs
+    assert fake.FakeCase(**json.loads(attributes["case_parameters"])) == fake.FakeCase()
+    assert attributes["case_name"] == "sphframe_fake_simulation:FakeCase", "an unregistered case is named by its class"
+    assert json.loads(attributes["components"])["kernel"] == {"name": "gaussian"}
+    assert "sphframe" in json.loads(attributes["distributions"])
+
+
+def test_plain_xarray_reads_it(written: Path) -> None:
+    with xr.open_dataset(written) as dataset:
+        assert dataset.probe.values.tolist() == ["left", "Gefäß"]
+
+
+def test_readable_while_it_is_written(tmp_path: Path, fake: ModuleType) -> None:
+    path = tmp_path / "run.nc"
+    writer, simulation = NetCDFWriter(path, flush_interval=0.0), fake.FakeSimulation()
+    assert not path.exists(), "the file must not appear before the run starts"
+    writer.sphframe_run_started(simulation=simulation)
+    assert open_dataset(path).sizes["time"] == 0
+    for steps in range(1, 25):
+        fake.play(writer, simulation, 1)
+        dataset = open_dataset(path)
+        assert dataset.sizes["probe_time"] == steps
+        assert dataset.sizes["time"] == 1 + (steps - 1) // 10
+        assert dataset.attrs["run_status"] == "running"
+    writer.sphframe_run_failed(simulation=simulation, error=ValueError("too wet"))
+    assert open_dataset(path).attrs["run_status"] == "failed"
+    assert open_dataset(path).attrs["run_message"] == "ValueError: too wet"
+
+
+def test_case_without_probes_gauges_and_bodies(tmp_path: Path, fake: ModuleType) -> None:
+    simulation = fake.FakeSimulation(fake.FakeCase(probe_count=0))
+    writer = NetCDFWriter(tmp_path / "run.nc")
+    writer.sphframe_run_started(simulation=simulation)
+    fake.play(writer, simulation, 3)
+    writer.sphframe_run_finished(simulation=simulation)
+    assert "probe_pressure" not in open_dataset(tmp_path / "run.nc")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="SIGKILL is POSIX")
+def test_killed_at_random_moments(tmp_path: Path) -> None:
+    generator = random.Random(20190511)
+    program = Path(__file__).with_name("fake_simulation.py")
+    frames = []
+    command = [sys.executable, str(program)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        for attempt in range(25):
+            path = tmp_path / f"run{attempt}.nc"
+            print(path, file=process.stdin, flush=True)
+            writing = int(process.stdout.readline())
+            time.sleep(generator.uniform(0.0, 0.3))
+            os.kill(writing, signal.SIGKILL)
+            assert process.stdout.readline() == "killed\n"
+            frames.append(check_whole(path))
+            NetCDFWriter(path, overwrite=True)  # a dead run holds no lock
+        process.stdin.close()
+    assert max(frames) > 1, "no run got as far as its second frame: the test shows nothing"
+
+
+def check_whole(path: Path) -> int:
+    """Check that all samples and frames in ``path`` are complete; return the number of frames."""
+    dataset = open_dataset(path)
+    times = dataset.probe_time.values
+    np.testing.assert_allclose(times, 0.01 * np.arange(len(times)), err_msg="samples have gaps")
+    np.testing.assert_allclose(dataset.probe_pressure[:, 0], 100.0 * times, err_msg="a sample is half written")
+    np.testing.assert_allclose(dataset.kinetic_energy, times, err_msg="a sample is half written")
+    expected = np.broadcast_to(1000.0 + dataset.time.values[:, None], dataset.density.shape)
+    np.testing.assert_allclose(dataset.density, expected, err_msg="a frame is half written")
+    np.testing.assert_allclose(dataset.pressure, expected - 1000.0, err_msg="a frame is half written")
+    return int(dataset.sizes["time"])
+
+
+def test_existing_file_is_kept(written: Path) -> None:
+    before = written.read_bytes()
+    with pytest.raises(OutputError, match="--overwrite"):
+        NetCDFWriter(written)
+    assert written.read_bytes() == before
+
+
+def test_overwriting_replaces_only_when_the_run_starts(written: Path, fake: ModuleType) -> None:
+    before = written.read_bytes()
+    writer = NetCDFWriter(written, overwrite=True)
+    assert written.read_bytes() == before
+    writer.sphframe_run_started(simulation=fake.FakeSimulation())
+    assert open_dataset(written).sizes["time"] == 0
+    assert [p.name for p in written.parent.iterdir()] == ["run.nc"], "nothing is left beside the output"
+
+
+def test_two_runs_cannot_write_one_file(tmp_path: Path, fake: ModuleType) -> None:
+    path = tmp_path / "run.nc"
+    first, second = NetCDFWriter(path), NetCDFWriter(path)
+    simulation = fake.FakeSimulation()
+    first.sphframe_run_started(simulation=simulation)
+    with pytest.raises(OutputError, match="overwrite"):
+        second.sphframe_run_started(simulation=simulation)
+    with pytest.raises(OutputError, match="another run is writing"):
+        NetCDFWriter(path, overwrite=True)
+    fake.play(first, simulation, 1)
+    first.sphframe_run_finished(simulation=simulation)
+    assert open_dataset(path).sizes["time"] == 1
+    NetCDFWriter(path, overwrite=True)
+
+
+def test_folder_missing_or_not_writable(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match="mkdir -p"):
+        NetCDFWriter(tmp_path / "nowhere" / "run.nc")
+    with pytest.raises(OutputError, match="is a folder"):
+        NetCDFWriter(tmp_path)
+    closed = tmp_path / "closed"
+    closed.mkdir(mode=0o500)
+    if not os.access(closed, os.W_OK):  # the superuser may write anywhere
+        with pytest.raises(OutputError, match="cannot be written"):
+            NetCDFWriter(closed / "run.nc")
+
+
+def test_output_deleted_during_the_run(written: Path, fake: ModuleType) -> None:
+    simulation = fake.FakeSimulation()
+    writer = NetCDFWriter(written, overwrite=True)
+    writer.sphframe_run_started(simulation=simulation)
+    written.unlink()
+    with pytest.raises(OutputError, match="deleted or replaced"):
+        fake.play(writer, simulation, 1)
+
+
+def test_too_little_disk(tmp_path: Path, fake: ModuleType) -> None:
+    case = fake.FakeCase(until=1e9, probe_interval=1e9)
+    with pytest.raises(OutputError, match="frame_interval"):
+        NetCDFWriter(tmp_path / "run.nc").sphframe_run_started(simulation=fake.FakeSimulation(case, 10_000))
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="file size limits are POSIX")
+def test_disk_full_keeps_what_was_written(tmp_path: Path) -> None:
+    path = tmp_path / "run.nc"
+    program = f"""
+import resource, runpy, sys
+fake = runpy.run_path({str(Path(__file__).with_name("fake_simulation.py"))!r})
+from sphframe.errors import OutputError
+resource.setrlimit(resource.RLIMIT_FSIZE, (1_000_000, 1_000_000))
+simulation = fake["FakeSimulation"](particles=2000)
+writer = fake["NetCDFWriter"]({str(path)!r})
+writer.sphframe_run_started(simulation=simulation)
+try:
+    fake["play"](writer, simulation, 1000)
+except OutputError as error:
+    writer.sphframe_run_failed(simulation=simulation, error=error)
+    print(error)
+"""
+    said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
+    assert "frames and" in said, said
+    assert "intact" in said, said
+    dataset = open_dataset(path)
+    assert dataset.sizes["time"] > 2
+    np.testing.assert_allclose(dataset.density[-1], 1000.0 + float(dataset.time[-1]))
+    assert f"{dataset.sizes['time']} frames" in said, said
+
+
+def test_missing_foreign_and_truncated_files(tmp_path: Path, written: Path) -> None:
+    with pytest.raises(InputError, match="does not exist"):
+        open_dataset(tmp_path / "none.nc")
+    with pytest.raises(InputError, match="not a file"):
+        open_dataset(tmp_path)
+    foreign = tmp_path / "foreign.nc"
+    foreign.write_text("hello")
+    with pytest.raises(InputError, match="not a readable NetCDF"):
+        open_dataset(foreign)
+    with netCDF4.Dataset(tmp_path / "other.nc", "w") as other:
+        other.createDimension("x", 3)
+    with pytest.raises(InputError, match="not the output of a sphframe run"):
+        open_dataset(tmp_path / "other.nc")
+    whole = written.read_bytes()
+    for length in (0, 3, 100, 1000, len(whole) // 4, len(whole) // 2, len(whole) - 1000, len(whole) - 8):
+        (tmp_path / "cut.nc").write_bytes(whole[:length])
+        with pytest.raises(InputError, match="truncated"):
+            open_dataset(tmp_path / "cut.nc")
+
+
+def test_clashing_diagnostic(tmp_path: Path, fake: ModuleType) -> None:
+    simulation = fake.FakeSimulation()
+    object.__setattr__(simulation.scene.diagnostics[0], "name", "mass")
+    with pytest.raises(OutputError, match="rename"):
+        NetCDFWriter(tmp_path / "run.nc").sphframe_run_started(simulation=simulation)
+    assert not list(tmp_path.iterdir())
+
+
+def test_last_values_of_the_file_are_never_zero() -> None:
+    """The reader recognises a truncated file by these two."""
+    assert list(VARIABLES)[-1] == "density"
