@@ -1,5 +1,6 @@
 """Geometry: walls -> fluid lattice, ghost particles, mirror points."""
 
+from sphframe.geometry.panels import Panels, wall_panels
 from sphframe.geometry.shapes import BoxRegion, PolygonRegion, Region, lattice
 from sphframe.geometry.walls import BoxWall, GhostPoints, PolygonWall, Wall, wall_ghosts
 
@@ -7,10 +8,12 @@ __all__ = [
     "BoxRegion",
     "BoxWall",
     "GhostPoints",
+    "Panels",
     "PolygonRegion",
     "PolygonWall",
     "Region",
     "Wall",
     "lattice",
     "wall_ghosts",
+    "wall_panels",
 ]

@@ -29,6 +29,9 @@ class RigidBody(ABC):
     needs_load: ClassVar[bool] = False
     """whether :meth:`motion` uses the load, which costs a sum over the wall's neighbours at every stage"""
 
+    centre: tuple[float, ...] = (0.0, 0.0)
+    """centre of rotation as drawn, m, that angles and moments refer to"""
+
     @abstractmethod
     def motion(self, time: float, position: Array, velocity: Array, load: Array) -> Motion:
         """Return the body's motion at ``time``.

@@ -1,0 +1,74 @@
+"""Boundary: ghosts and mirror points carried by rigid bodies.
+
+::
+
+    x = c + X + R(angle) (x0 - c),    u = U + omega x r,    a = A + alpha x r - omega^2 r,    r = x - c - X
+
+with the body's centre c as drawn, displacement X and, in 2-D, its angle. The reflection matrices turn along.
+"""
+
+import math
+
+import numba
+
+__all__ = ["move_ghosts"]
+
+
+@numba.njit(cache=True, error_model="numpy")
+def move_ghosts(  # type: ignore[no-untyped-def]
+    drawn, drawn_mirror, drawn_reflection, ghost_body, centres, positions, velocities, accelerations, remembered,
+    position, mirror, reflection, velocity, acceleration,
+):  # fmt: skip
+    """Write the last five arrays for ghosts whose ``ghost_body`` is not -1; return the largest displacement, m.
+
+    ``positions``, ``velocities``, ``accelerations`` (bodies, 3) are generalised coordinates; the displacement is
+    measured from ``remembered`` (g, dim).
+    """
+    dim = drawn.shape[1]
+    largest = 0.0
+    for g in range(drawn.shape[0]):
+        b = ghost_body[g]
+        if b < 0:
+            continue
+        if dim == 2:
+            cos = math.cos(positions[b, 2])
+            sin = math.sin(positions[b, 2])
+            omega = velocities[b, 2]
+            alpha = accelerations[b, 2]
+            x = drawn[g, 0] - centres[b, 0]
+            y = drawn[g, 1] - centres[b, 1]
+            rx = cos * x - sin * y
+            ry = sin * x + cos * y
+            position[g, 0] = centres[b, 0] + positions[b, 0] + rx
+            position[g, 1] = centres[b, 1] + positions[b, 1] + ry
+            x = drawn_mirror[g, 0] - centres[b, 0]
+            y = drawn_mirror[g, 1] - centres[b, 1]
+            mx = cos * x - sin * y
+            my = sin * x + cos * y
+            mirror[g, 0] = centres[b, 0] + positions[b, 0] + mx
+            mirror[g, 1] = centres[b, 1] + positions[b, 1] + my
+            # the wall's kinematics are taken at the foot point, half-way between ghost and mirror point
+            rx = 0.5 * (rx + mx)
+            ry = 0.5 * (ry + my)
+            velocity[g, 0] = velocities[b, 0] - omega * ry
+            velocity[g, 1] = velocities[b, 1] + omega * rx
+            acceleration[g, 0] = accelerations[b, 0] - alpha * ry - omega * omega * rx
+            acceleration[g, 1] = accelerations[b, 1] + alpha * rx - omega * omega * ry
+            sxx = drawn_reflection[g, 0, 0]
+            sxy = drawn_reflection[g, 0, 1]
+            syy = drawn_reflection[g, 1, 1]
+            reflection[g, 0, 0] = cos * cos * sxx - 2.0 * cos * sin * sxy + sin * sin * syy
+            reflection[g, 1, 1] = sin * sin * sxx + 2.0 * cos * sin * sxy + cos * cos * syy
+            reflection[g, 0, 1] = cos * sin * (sxx - syy) + (cos * cos - sin * sin) * sxy
+            reflection[g, 1, 0] = reflection[g, 0, 1]
+        else:
+            for k in range(3):
+                position[g, k] = drawn[g, k] + positions[b, k]
+                mirror[g, k] = drawn_mirror[g, k] + positions[b, k]
+                velocity[g, k] = velocities[b, k]
+                acceleration[g, k] = accelerations[b, k]
+        distance2 = 0.0
+        for k in range(dim):
+            distance2 += (position[g, k] - remembered[g, k]) ** 2
+        largest = max(largest, distance2)
+    return math.sqrt(largest)

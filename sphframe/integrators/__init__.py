@@ -1,0 +1,6 @@
+"""Integrators: how the state is advanced in time."""
+
+from sphframe.integrators.rk4 import RungeKutta4
+from sphframe.integrators.symplectic import SymplecticPredictorCorrector
+
+__all__ = ["RungeKutta4", "SymplecticPredictorCorrector"]

@@ -1,0 +1,5 @@
+"""Neighbours: who sees whom."""
+
+from sphframe.neighbours.lists import NeighbourLists
+
+__all__ = ["NeighbourLists"]

@@ -1,0 +1,441 @@
+"""Simulation: from a case to its state, step by step."""
+
+import math
+import time as clock
+from typing import Any
+
+import numba
+import numpy as np
+import pluggy
+from numpy.typing import NDArray
+
+from sphframe.boundary.boundary import Boundary
+from sphframe.cases.case import Case, Fields, Scene
+from sphframe.errors import InputError, SimulationError
+from sphframe.geometry import lattice, wall_panels
+from sphframe.interfaces import CompiledKernel, Motion, Status
+from sphframe.neighbours import NeighbourLists
+from sphframe.particles import Columns
+from sphframe.physics import sample_points
+from sphframe.registry import create
+from sphframe.simulation.probes import Gauges, PressureProbes
+from sphframe.simulation.rest_state import rest_pressure
+from sphframe.simulation.system import FluidSystem, Parameters
+from sphframe.specialise import compile_part, specialise
+
+__all__ = ["Simulation"]
+
+Array = NDArray[np.float64]
+
+SKIN = 0.1
+"""skin of the neighbour lists over the kernel support"""
+
+
+class Simulation:
+    """A case in motion.
+
+    Parameters
+    ----------
+    case: what to simulate.
+    threads: threads of the compiled loops; by default all cores. The result has the same bits for any number.
+
+    Attributes
+    ----------
+    case, scene: what is simulated. ``components``: the kernel, equation of state, interpolator and integrator.
+    time: s; ``step``: number of steps made; ``time_step``: the last one, s.
+    sound_speed: m/s; ``smoothing_length``, ``support``: m.
+
+    Raises
+    ------
+    InputError: when the case holds no fluid or no wall, or contradicts itself.
+    PluginError: when a component cannot be had.
+    """
+
+    def __init__(self, case: Case, *, threads: int | None = None) -> None:
+        self.case = case
+        self.scene: Scene = case.scene()
+        self.threads = _use_threads(threads)
+        self.components: dict[str, Any] = {
+            "interpolator": create("interpolators", case.interpolator.name, **case.interpolator.options),
+            "kernel": create("kernels", case.kernel.name, **case.kernel.options),
+            "equation_of_state": create(
+                "equations_of_state", case.equation_of_state.name, **case.equation_of_state.options
+            ),
+            "integrator": create("integrators", case.integrator.name, **case.integrator.options),
+        }
+        dim, spacing = case.dimension, case.particle_spacing
+        shape, state = self.components["kernel"], self.components["equation_of_state"]
+        kernel = CompiledKernel(
+            compile_part(shape.value_function()),
+            compile_part(shape.gradient_function()),
+            shape.support,
+            shape.normalisation(dim),
+        )
+        self.sound_speed = case.sound_speed or 20.0 * math.sqrt(max(case.gravity, 1e-12) * self.scene.depth)
+        self.parameters = Parameters(
+            dim=dim,
+            kernel=kernel,
+            smoothing_length=case.smoothing_length_ratio * spacing,
+            reference_density=case.reference_density,
+            sound_speed=self.sound_speed,
+            gravity=case.gravity,
+            density_diffusion=case.density_diffusion,
+            artificial_viscosity=case.artificial_viscosity,
+        )
+        self.smoothing_length, self.support = self.parameters.smoothing_length, self.parameters.support
+        self.columns = Columns(dim)
+
+        position = np.vstack([lattice(region, spacing) for region in self.scene.fluid])
+        _check_scene(self.scene, position, dim)
+        self.boundary = Boundary(
+            self.scene.walls,
+            self.scene.bodies,
+            self.components["interpolator"],
+            kernel,
+            state,
+            spacing=spacing,
+            support=self.support,
+            no_slip=case.slip == "no",
+            balanced=case.hydrostatic_lift == "balanced",
+        )
+        self.fluid_count, self.ghost_count = len(position), self.boundary.count
+        self.lists = NeighbourLists(dim, self.fluid_count, self.ghost_count, self.support, SKIN * self.support)
+        rows = self._initial_rows(position, compile_part(state.density_function()))
+        self.system = FluidSystem(rows, self.fluid_count, self.boundary, self.lists, kernel, state, self.parameters)
+        self._ids = np.arange(self.fluid_count)
+        self._reference = np.zeros((self.fluid_count, dim))
+        self._stale = True
+        self._lower, self._upper = (np.array(corner, dtype=np.float64) for corner in self.scene.domain)
+        sample = specialise(sample_points, {"DIM": dim, "SUPPORT": kernel.support, "VALUE": kernel.value})
+        self._probes = PressureProbes(self.scene.probes, dim)
+        self._gauges = Gauges(self.scene.gauges, self._lower, self._upper, 0.25 * spacing)
+        self._sample = sample
+        self._panels = wall_panels(self.scene.walls, spacing)
+
+        self.time = 0.0
+        self.step = 0
+        self.time_step = 0.0
+        self.wall_clock = 0.0
+        self.system.move_walls(0.0)
+        self._find_neighbours()
+        self.system.evaluate(0.0)
+        self.initial_energy = sum(self.energies().values())
+
+    def _initial_rows(self, position: Array, density: Any) -> Array:
+        case, columns = self.case, self.columns
+        if self.scene.initial_pressure is not None:
+            pressure = self.scene.initial_pressure(position)
+        else:
+            surface = max(region.upper[-1] for region in self.scene.fluid)
+            pressure = rest_pressure(
+                surface - position[:, -1], density, case.reference_density, self.sound_speed, case.gravity
+            )
+        rows = columns.empty(self.fluid_count + self.ghost_count)
+        n, volume = self.fluid_count, case.particle_spacing**case.dimension
+        rows[:n, columns.position] = position
+        rows[:n, columns.pressure] = pressure
+        rows[:n, columns.density] = [density(p, case.reference_density, self.sound_speed) for p in pressure]
+        rows[:n, columns.mass] = rows[:n, columns.density] * volume
+        rows[n:, columns.density] = case.reference_density
+        rows[n:, columns.mass] = case.reference_density * volume
+        rows[:, columns.volume] = volume
+        rows[n:, columns.position] = self.boundary.position
+        return rows
+
+    # one step
+
+    def advance(self) -> None:
+        """Make one time step.
+
+        Raises
+        ------
+        SimulationError: when a particle's state is not finite or it has left the domain, or the time step collapses.
+        """
+        began = clock.perf_counter()
+        speed, moved = self._watch()
+        self.time_step = self._next_time_step(speed)
+        travelled = max(moved, self.boundary.displacement) + 1.2 * speed * self.time_step
+        if 2.0 * travelled > self.lists.skin:
+            self._find_neighbours()
+        self.components["integrator"].step(self.system, self.time, self.time_step)
+        self.time = min(self.time + self.time_step, self.case.until)
+        self.step += 1
+        self._stale = True
+        self.wall_clock += clock.perf_counter() - began
+
+    def _watch(self) -> tuple[float, float]:
+        """Largest speed and largest displacement since the neighbour search; stop where a particle went astray."""
+        speed2, moved2, astray = _watch_particles(
+            self.system.rows, self._reference, self.case.dimension, self._lower, self._upper
+        )
+        if astray < self.fluid_count:
+            row = self.system.rows[astray]
+            place = tuple(float(x) for x in row[self.columns.position])
+            what = "has left the domain" if np.all(np.isfinite(row)) else "has a state that is not finite"
+            raise SimulationError(
+                f"particle {self._ids[astray]} {what} (velocity {row[self.columns.velocity]} m/s, density"
+                f" {row[self.columns.density]:.6g} kg/m^3); likely causes: a time step above the stability limit"
+                " (set a smaller courant_number or time_step), walls that leak, or a sound speed too low for the flow",
+                time=self.time,
+                step=self.step,
+                place=place,
+            )
+        return math.sqrt(speed2), math.sqrt(moved2)
+
+    def _next_time_step(self, speed: float) -> float:
+        case, integrator = self.case, self.components["integrator"]
+        if case.time_step is not None:
+            step = case.time_step
+        else:
+            courant = case.courant_number or integrator.courant_number
+            step = min(courant * self.smoothing_length / (self.sound_speed + speed), case.probe_interval)
+            if step < 1e-6 * self.smoothing_length / self.sound_speed:
+                raise SimulationError(
+                    f"the time step has collapsed to {step:.3g} s at a speed of {speed:.3g} m/s; the flow is no longer"
+                    " physical: refine the particle spacing or raise the sound speed",
+                    time=self.time,
+                    step=self.step,
+                )
+        left = case.until - self.time
+        return left if left < 1.0000001 * step else step
+
+    def _find_neighbours(self) -> None:
+        """Put the particles in spatial order and list their neighbours."""
+        rows, n = self.system.rows, self.fluid_count
+        order = self.lists.sort(rows)
+        rows[:n] = rows[:n][order]
+        self._ids = self._ids[order]
+        self.lists.build(rows, self.boundary.points)
+        self._reference[:] = rows[:n, self.columns.position]
+        self.boundary.remember()
+
+    # what can be looked at
+
+    def _refresh(self) -> None:
+        """Pressures of the present state: within a step they belong to a stage of the integrator."""
+        if self._stale:
+            self.system.update_pressure()
+            self._stale = False
+
+    def _fluid(self) -> Fields:
+        self._refresh()
+        fluid, columns = self.system.rows[: self.fluid_count], self.columns
+        return Fields(
+            fluid[:, columns.position], fluid[:, columns.velocity], fluid[:, columns.density], fluid[:, columns.pressure]
+        )
+
+    def fields(self) -> Fields:
+        """Copies of the fluid's fields in the particles' original order."""
+        back = np.empty_like(self._ids)
+        back[self._ids] = np.arange(self.fluid_count)
+        return Fields(*(field[back] for field in self._fluid()))
+
+    def masses(self) -> Array:
+        """Mass of each particle in the original order, kg (per metre of width in 2-D)."""
+        masses = np.empty(self.fluid_count)
+        masses[self._ids] = self.system.rows[: self.fluid_count, self.columns.mass]
+        return masses
+
+    @property
+    def ghosts(self) -> Boundary:
+        """The ghosts: ``position`` and ``mirror`` (g, dim) at present, ``statuses`` (g,)."""
+        return self.boundary
+
+    def ghost_fields(self) -> Fields:
+        """Copies of the ghosts' fields as last filled."""
+        ghosts, columns = self.system.rows[self.fluid_count :], self.columns
+        return Fields(
+            ghosts[:, columns.position].copy(),
+            ghosts[:, columns.velocity].copy(),
+            ghosts[:, columns.density].copy(),
+            ghosts[:, columns.pressure].copy(),
+        )
+
+    def sample(self, points: Array) -> tuple[Array, Array]:
+        """Pressure (Pa, 0 where dry) and filling (1 inside the fluid) at ``points`` (k, dim)."""
+        self._refresh()
+        p = self.parameters
+        lists, counts = self.lists.around(points, self.system.rows)
+        pressures, fillings = np.zeros(len(points)), np.zeros(len(points))
+        self._sample(
+            points, self.system.rows, lists, counts, p.support, p.kernel_scale, p.reference_density * p.gravity,
+            pressures, fillings,
+        )  # fmt: skip
+        return pressures, fillings
+
+    def probe_pressures(self) -> Array:
+        """Pressure at each probe, Pa."""
+        return self._probes.average(self.sample(self._probes.points)[0])
+
+    def gauge_elevations(self) -> Array:
+        """Elevation of the free surface at each gauge, m; NaN where dry."""
+        return self._gauges.elevations(self.sample(self._gauges.points)[1])
+
+    def energies(self) -> dict[str, float]:
+        """Kinetic, potential and internal energy of the fluid, J (per metre of width in 2-D).
+
+        The potential energy is measured from z = 0; the internal energy is p^2 V / (2 rho c0^2), its leading order.
+        """
+        fields = self._fluid()
+        mass = self.system.rows[: self.fluid_count, self.columns.mass]
+        compliance = mass / (fields.density**2 * self.sound_speed**2)
+        return {
+            "kinetic": 0.5 * float(mass @ np.einsum("ij,ij->i", fields.velocity, fields.velocity)),
+            "potential": self.case.gravity * float(mass @ fields.position[:, -1]),
+            "internal": 0.5 * float(compliance @ fields.pressure**2),
+        }
+
+    def diagnostics(self) -> dict[str, float]:
+        """The case's own diagnostics."""
+        fields = self._fluid()
+        return {diagnostic.name: diagnostic.function(fields) for diagnostic in self.scene.diagnostics}
+
+    def particles_outside(self) -> int:
+        """Number of particles behind a wall."""
+        position = self.system.rows[: self.fluid_count, self.columns.position]
+        outside = np.zeros(self.fluid_count, dtype=np.bool_)
+        for wall, body in zip(self.scene.walls, self.boundary.wall_body, strict=True):
+            if body >= 0:
+                drawn = _in_frame(position, self.system.motions[body], self.boundary.centres[body])
+            else:
+                drawn = position
+            outside |= wall.is_behind(drawn)
+        return int(outside.sum())
+
+    def status_counts(self) -> NDArray[np.int64]:
+        """Number of ghosts by :class:`Status` at the last evaluation."""
+        return np.bincount(self.boundary.statuses, minlength=len(Status))
+
+    def body_motions(self) -> dict[str, Motion]:
+        """Motion of each body at present."""
+        return dict(zip(self.boundary.bodies, self.system.motions, strict=True))
+
+    def wall_forces(self) -> dict[str, tuple[Array, Array]]:
+        """Force on each wall, N (per metre of width in 2-D), by the ghosts' reaction and by integrated pressure."""
+        self._refresh()
+        self.system.find_loads()
+        centre, area = self._panels.centre.copy(), self._panels.area.copy()
+        for index, body in enumerate(self.boundary.wall_body):
+            if body >= 0:
+                own = self._panels.wall == index
+                motion, pivot = self.system.motions[body], self.boundary.centres[body]
+                centre[own] = _from_frame(centre[own], motion, pivot)
+                area[own] = _from_frame(area[own], motion, None)
+        pressure, _ = self.sample(centre)
+        forces = pressure[:, None] * area
+        return {
+            wall.name: (
+                self.system.loads[index, : self.case.dimension].copy(),
+                forces[self._panels.wall == index].sum(axis=0),
+            )
+            for index, wall in enumerate(self.scene.walls)
+        }
+
+    # a whole run
+
+    @property
+    def frame_count(self) -> int:
+        """Number of frames of a whole run."""
+        return _samples(self.case.until, self.case.frame_interval)
+
+    @property
+    def probe_count(self) -> int:
+        """Number of probe samples of a whole run."""
+        return _samples(self.case.until, self.case.probe_interval)
+
+    def run(self, manager: pluggy.PluginManager) -> None:
+        """Run to the end of the case, telling the events to the listeners of ``manager``.
+
+        Raises
+        ------
+        SimulationError: when the run goes wrong. Listeners are told of any error before it leaves here.
+        """
+        hook = manager.hook
+        try:
+            frames = probes = 0
+            hook.sphframe_run_started(simulation=self)
+            while True:
+                if self._is_due(probes, self.case.probe_interval):
+                    hook.sphframe_probes_due(simulation=self)
+                    probes += 1
+                if self._is_due(frames, self.case.frame_interval):
+                    hook.sphframe_frame_due(simulation=self)
+                    frames += 1
+                if self.time >= self.case.until:
+                    break
+                self.advance()
+                hook.sphframe_step_completed(simulation=self)
+        except BaseException as error:
+            hook.sphframe_run_failed(simulation=self, error=error)
+            raise
+        hook.sphframe_run_finished(simulation=self)
+
+    def _is_due(self, number: int, interval: float) -> bool:
+        return self.time >= number * interval - 1e-9 * interval
+
+
+def _samples(until: float, interval: float) -> int:
+    return math.floor(until / interval + 1e-9) + 1
+
+
+def _use_threads(threads: int | None) -> int:
+    available = int(numba.config.NUMBA_NUM_THREADS)
+    if threads is not None and not 1 <= threads <= available:
+        raise InputError(f"threads = {threads}, but this machine offers 1 to {available}")
+    numba.set_num_threads(threads or available)
+    return threads or available
+
+
+def _check_scene(scene: Scene, position: Array, dim: int) -> None:
+    if position.shape[1] != dim or any(wall.dimension != dim for wall in scene.walls):
+        raise InputError(f"the case says dimension = {dim}, but its walls or fluid are drawn in another one")
+    if len(position) == 0:
+        raise InputError("the case holds no fluid particle: make particle_spacing smaller or the fluid larger")
+    if not scene.walls:
+        raise InputError("the case has no wall; a wall boundary needs at least one")
+    unknown = sorted({wall.body for wall in scene.walls if wall.body is not None} - set(scene.bodies))
+    if unknown:
+        raise InputError(f"walls refer to the bodies {unknown}, but the case has {sorted(scene.bodies) or 'none'}")
+
+
+def _from_frame(vectors: Array, motion: Motion, centre: Array | None) -> Array:
+    """Points (or, with no centre, directions) drawn on a body -> where they are at present."""
+    dim = vectors.shape[1]
+    pivot = np.zeros(dim) if centre is None else centre
+    turned = vectors - pivot
+    if dim == 2:
+        c, s = math.cos(motion.position[2]), math.sin(motion.position[2])
+        turned = turned @ np.array([[c, s], [-s, c]])
+    return turned + pivot + (0.0 if centre is None else motion.position[:dim])
+
+
+def _in_frame(position: Array, motion: Motion, centre: Array) -> Array:
+    """Present positions -> the frame in which the body was drawn."""
+    dim = position.shape[1]
+    turned = position - centre - motion.position[:dim]
+    if dim == 2:
+        c, s = math.cos(motion.position[2]), math.sin(motion.position[2])
+        turned = turned @ np.array([[c, -s], [s, c]])
+    return turned + centre
+
+
+@numba.njit(parallel=True, cache=True)
+def _watch_particles(rows, reference, dim, lower, upper):  # type: ignore[no-untyped-def]
+    """Return the largest squared speed and displacement, and the first row that is not finite or outside the box."""
+    speed2 = 0.0
+    moved2 = 0.0
+    astray = reference.shape[0]
+    for i in numba.prange(reference.shape[0]):
+        speed = 0.0
+        moved = 0.0
+        fine = math.isfinite(rows[i, 2 * dim])
+        for k in range(dim):
+            speed += rows[i, dim + k] ** 2
+            moved += (rows[i, k] - reference[i, k]) ** 2
+            fine = fine and rows[i, k] >= lower[k] and rows[i, k] <= upper[k]
+        fine = fine and math.isfinite(speed)
+        if not fine:
+            astray = min(astray, i)
+        speed2 = max(speed2, speed)
+        moved2 = max(moved2, moved)
+    return speed2, moved2, astray

@@ -1,0 +1,231 @@
+"""Simulation: the fluid and its bodies as one system of ordinary differential equations.
+
+The order of things within one evaluation reads from top to bottom in :meth:`FluidSystem.evaluate`.
+"""
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from sphframe.boundary.boundary import Boundary
+from sphframe.interfaces import CompiledKernel, EquationOfState, Motion, System
+from sphframe.neighbours import NeighbourLists
+from sphframe.particles import Columns
+from sphframe.physics import density_gradient, fluid_rates, update_pressure, wall_reaction
+from sphframe.specialise import compile_part, specialise
+
+__all__ = ["FluidSystem", "Parameters"]
+
+Array = NDArray[np.float64]
+
+
+class Parameters:
+    """The numbers that the loops need, in SI units."""
+
+    def __init__(
+        self,
+        *,
+        dim: int,
+        kernel: CompiledKernel,
+        smoothing_length: float,
+        reference_density: float,
+        sound_speed: float,
+        gravity: float,
+        density_diffusion: float,
+        artificial_viscosity: float,
+    ) -> None:
+        self.dim = dim
+        self.smoothing_length = smoothing_length
+        self.support = kernel.support * smoothing_length
+        self.kernel_scale = kernel.normalisation / smoothing_length**dim
+        self.gradient_scale = kernel.normalisation / smoothing_length ** (dim + 2)
+        self.reference_density = reference_density
+        self.sound_speed = sound_speed
+        self.gravity = gravity
+        self.diffusion = density_diffusion * smoothing_length * sound_speed
+        self.viscosity = artificial_viscosity * smoothing_length * sound_speed * reference_density
+
+
+class FluidSystem(System):
+    """The state that an integrator advances: rows of the fluid, and generalised coordinates of the bodies.
+
+    Attributes
+    ----------
+    rows: (n + g, width) packed rows, see :class:`Columns`; the fluid comes first.
+    rates: (n, 2 dim + 1) velocity, acceleration and density rate of the last evaluation.
+    body_position, body_velocity: (bodies, 3); ``loads`` (walls, 3) force and moment on each wall.
+    """
+
+    def __init__(
+        self,
+        rows: Array,
+        fluid_count: int,
+        boundary: Boundary,
+        lists: NeighbourLists,
+        kernel: CompiledKernel,
+        equation_of_state: EquationOfState,
+        parameters: Parameters,
+    ) -> None:
+        dim = parameters.dim
+        self.rows = rows
+        self.fluid_count = fluid_count
+        self.boundary = boundary
+        self.lists = lists
+        self.parameters = parameters
+        self.columns = Columns(dim)
+        self.rates = np.zeros((fluid_count, 2 * dim + 1))
+        self.gradient = np.zeros((fluid_count, dim))
+        self._start = np.zeros_like(self.rates)
+        self._total = np.zeros_like(self.rates)
+        bodies = len(boundary.bodies)
+        self.body_position = np.zeros((bodies, 3))
+        self.body_velocity = np.zeros((bodies, 3))
+        self.motions = [Motion(np.zeros(3), np.zeros(3), np.zeros(3)) for _ in range(bodies)]
+        self._body_rates = np.zeros((2, bodies, 3))
+        self._body_start = np.zeros((2, bodies, 3))
+        self._body_total = np.zeros((2, bodies, 3))
+        walls = len(boundary.wall_body)
+        self.loads = np.zeros((walls, 3))
+        self._partial_loads = np.zeros((64, walls, 3))
+        self._driving_force = np.zeros(dim)
+        self._driving_force[-1] = -parameters.reference_density * parameters.gravity
+        parts = {"DIM": dim, "SUPPORT": kernel.support}
+        self._pressure = specialise(
+            update_pressure, {"DIM": dim, "PRESSURE": compile_part(equation_of_state.pressure_function())}
+        )
+        self._density_gradient = specialise(density_gradient, {**parts, "GRADIENT": kernel.gradient})
+        self._fluid_rates = specialise(fluid_rates, {**parts, "GRADIENT": kernel.gradient})
+        self._wall_reaction = specialise(wall_reaction, {**parts, "GRADIENT": kernel.gradient})
+
+    def evaluate(self, time: float) -> None:
+        """Compute the rates of the present state at ``time``."""
+        self.move_walls(time)
+        self.update_pressure()
+        self.fill_ghosts()
+        self.find_rates()
+        self.find_body_rates(time)
+
+    def move_walls(self, time: float) -> None:
+        """Carry the ghosts to where the bodies are; their accelerations use the loads of the evaluation before."""
+        self._ask_bodies(time)
+        p = self.parameters
+        self.boundary.move(self.motions, self.rows[self.fluid_count :], self._driving_force, p.reference_density)
+
+    def update_pressure(self) -> None:
+        """Pressure and volume of the fluid from its density."""
+        p = self.parameters
+        self._pressure(self.rows, self.fluid_count, p.reference_density, p.sound_speed)
+
+    def fill_ghosts(self) -> None:
+        """Mirror, interpolate, assign."""
+        p = self.parameters
+        self.boundary.fill(
+            self.rows,
+            self.lists,
+            kernel_scale=p.kernel_scale,
+            reference_density=p.reference_density,
+            sound_speed=p.sound_speed,
+        )
+
+    def find_rates(self) -> None:
+        """Renormalised density gradient, then all rates of the fluid."""
+        p, lists = self.parameters, self.lists
+        self._density_gradient(self.rows, lists.fluid, lists.fluid_counts, p.support, p.gradient_scale, self.gradient)
+        self._fluid_rates(
+            self.rows, self.gradient, lists.fluid, lists.fluid_counts, lists.ghost_counts, p.support,
+            p.gradient_scale, p.diffusion, p.viscosity, p.gravity, self.rates,
+        )  # fmt: skip
+
+    def find_loads(self) -> None:
+        """Force and moment of the fluid on each wall."""
+        p, lists, boundary = self.parameters, self.lists, self.boundary
+        centres = np.zeros((len(boundary.wall_body), p.dim))
+        for wall, body in enumerate(boundary.wall_body):
+            if body >= 0:
+                centres[wall] = boundary.centres[body] + self.motions[body].position[: p.dim]
+        self._wall_reaction(
+            self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, boundary.wall,
+            centres, p.support, p.gradient_scale, p.viscosity, self._partial_loads, self.loads,
+        )  # fmt: skip
+
+    def find_body_rates(self, time: float) -> None:
+        """Velocities and accelerations of the bodies under the present loads."""
+        if not self.boundary.bodies:
+            return
+        if any(body.needs_load for body in self.boundary.bodies.values()):
+            self.find_loads()
+            self._ask_bodies(time)
+        for k, motion in enumerate(self.motions):
+            self._body_rates[0, k] = motion.velocity
+            self._body_rates[1, k] = motion.acceleration
+
+    def _ask_bodies(self, time: float) -> None:
+        for k, body in enumerate(self.boundary.bodies.values()):
+            load = self.loads[self.boundary.wall_body == k].sum(axis=0)
+            motion = body.motion(time, self.body_position[k], self.body_velocity[k], load)
+            self.body_position[k], self.body_velocity[k] = motion.position, motion.velocity
+            self.motions[k] = motion
+
+    def hold(self) -> None:
+        """Remember the state as the start of the step."""
+        _copy_state(self.rows, self._start)
+        self._total[:] = 0.0
+        if len(self.body_position):
+            self._body_start[0] = self.body_position
+            self._body_start[1] = self.body_velocity
+            self._body_total[:] = 0.0
+
+    def advance(self, interval: float) -> None:
+        """y = y0 + interval * f."""
+        _advance(self.rows, self._start, self.rates, interval)
+        if len(self.body_position):
+            self._set_bodies(self._body_start + interval * self._body_rates)
+
+    def accumulate(self, weight: float) -> None:
+        """total = total + weight * f."""
+        _accumulate(self._total, self.rates, weight)
+        self._body_total += weight * self._body_rates
+
+    def advance_total(self, interval: float) -> None:
+        """y = y0 + interval * total."""
+        _advance(self.rows, self._start, self._total, interval)
+        if len(self.body_position):
+            self._set_bodies(self._body_start + interval * self._body_total)
+
+    def centre_positions(self, interval: float) -> None:
+        """x = x0 + interval * (u0 + u) / 2."""
+        _centre_positions(self.rows, self._start, self.parameters.dim, interval)
+        if len(self.body_position):
+            middle = 0.5 * (self._body_start[1] + self.body_velocity)
+            self.body_position[:] = self._body_start[0] + interval * middle
+
+    def _set_bodies(self, state: Array) -> None:
+        self.body_position[:], self.body_velocity[:] = state
+
+
+@numba.njit(parallel=True, cache=True)
+def _copy_state(rows, start):  # type: ignore[no-untyped-def]
+    for i in numba.prange(start.shape[0]):
+        for k in range(start.shape[1]):
+            start[i, k] = rows[i, k]
+
+
+@numba.njit(parallel=True, cache=True)
+def _advance(rows, start, rates, interval):  # type: ignore[no-untyped-def]
+    for i in numba.prange(start.shape[0]):
+        for k in range(start.shape[1]):
+            rows[i, k] = start[i, k] + interval * rates[i, k]
+
+
+@numba.njit(parallel=True, cache=True)
+def _accumulate(total, rates, weight):  # type: ignore[no-untyped-def]
+    for i in numba.prange(total.shape[0]):
+        for k in range(total.shape[1]):
+            total[i, k] += weight * rates[i, k]
+
+
+@numba.njit(parallel=True, cache=True)
+def _centre_positions(rows, start, dim, interval):  # type: ignore[no-untyped-def]
+    for i in numba.prange(start.shape[0]):
+        for k in range(dim):
+            rows[i, k] = start[i, k] + interval * 0.5 * (start[i, dim + k] + rows[i, dim + k])
