@@ -66,7 +66,7 @@ def hook_manager(plugins: Iterable[object] = ()) -> pluggy.PluginManager:
 
     Parameters
     ----------
-    plugins: listeners of the caller, told before the installed ones.
+    plugins: listeners of the caller, told in this order and before the installed ones.
 
     Raises
     ------
@@ -77,20 +77,21 @@ def hook_manager(plugins: Iterable[object] = ()) -> pluggy.PluginManager:
     for entry in available("hooks"):
         try:
             _register(manager, load("hooks", entry.name), entry)
-        except Exception as error:
+        except PluginError as error:
             warnings.warn(f"the run goes on without a plugin: {error}", PluginWarning, stacklevel=2)
-    for plugin in plugins:  # pluggy tells the last registered first
+    for plugin in reversed(list(plugins)):  # pluggy tells the last registered first
         _register(manager, plugin, None)
     return manager
 
 
 def _register(manager: pluggy.PluginManager, plugin: object, entry: Entry | None) -> None:
-    listener = plugin() if inspect.isclass(plugin) else plugin
-    label = entry.label if entry else f"hook plugin {listener!r:.80}"
+    label = entry.label if entry else f"hook plugin {plugin!r:.80}"
+    listener = None
     try:
+        listener = plugin() if inspect.isclass(plugin) else plugin
         manager.register(listener)
         manager.check_pending()
-    except (pluggy.PluginValidationError, ValueError) as error:
-        if manager.is_registered(listener):
+    except Exception as error:
+        if listener is not None and manager.is_registered(listener):
             manager.unregister(listener)
-        raise PluginError(f"{label} cannot be registered: {error}") from error
+        raise PluginError(f"{label} cannot be registered: {type(error).__name__}: {error}") from error

@@ -1,0 +1,48 @@
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from textwrap import dedent
+
+import pytest
+
+from sphframe import registry
+
+Install = Callable[..., Path]
+
+
+@pytest.fixture
+def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Install]:
+    """Install little distributions, ``install(name, {module: source}, {kind: {name: address}})``, for one test."""
+    folder = tmp_path / "installed"
+
+    def add(
+        name: str,
+        modules: Mapping[str, str] | None = None,
+        components: Mapping[str, Mapping[str, str]] | None = None,
+        *,
+        version: str = "1.0",
+        entry_points: str | None = None,
+        folder: Path = folder,
+    ) -> Path:
+        folder.mkdir(exist_ok=True)
+        for module, source in (modules or {}).items():
+            path = folder / f"{module.replace('.', '/')}.py"
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(dedent(source))
+        info = folder / f"{name.replace('-', '_')}-{version}.dist-info"
+        info.mkdir()
+        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n")
+        groups = "".join(
+            f"[sphframe.{kind}]\n" + "".join(f"{key} = {value}\n" for key, value in names.items())
+            for kind, names in (components or {}).items()
+        )
+        (info / "entry_points.txt").write_text(groups if entry_points is None else entry_points)
+        monkeypatch.syspath_prepend(folder)
+        registry.clear()
+        return folder
+
+    yield add
+    for module in [m for m, loaded in sys.modules.items() if str(tmp_path) in str(getattr(loaded, "__file__", ""))]:
+        del sys.modules[module]
+    monkeypatch.undo()
+    registry.clear()
