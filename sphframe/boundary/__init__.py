@@ -1,0 +1,1 @@
+"""Boundary: fixed ghost particles in three steps: mirror, interpolate, assign."""
