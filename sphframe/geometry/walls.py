@@ -173,11 +173,14 @@ class BoxWall(BaseModel):
         return len(self.lower)
 
     def outline(self) -> list[Array]:
-        """Polylines (k, dim) that draw the box's edges."""
+        """Polylines (k, dim) that draw the box's edges, but for those between open faces only."""
         low, high = np.array(self.lower), np.array(self.upper)
         lines = []
         for axis in range(self.dimension):
+            others = [k for k in range(self.dimension) if k != axis]
             for ends in itertools.product((0, 1), repeat=self.dimension - 1):
+                if all("-+"[end] + "xyz"[k] in self.open_faces for k, end in zip(others, ends, strict=True)):
+                    continue
                 first = np.where(np.insert(ends, axis, 0), high, low)
                 second = np.where(np.insert(ends, axis, 1), high, low)
                 lines.append(np.array([first, second]))

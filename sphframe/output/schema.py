@@ -120,6 +120,7 @@ VARIABLES: Mapping[str, Variable] = {
     "position": Variable(("time", "particle", "space"), "m", "position"),
     "velocity": Variable(("time", "particle", "space"), "m s-1", "velocity"),
     "pressure": Variable(("time", "particle"), "Pa", "pressure"),
+    "particles_outside": Variable(("time",), "1", "fluid particles behind a wall", "i4"),
     "ghost_pressure": Variable(("time", "ghost"), "Pa", "pressure of the ghost particle"),
     # last of every frame: never zero either
     "density": Variable(("time", "particle"), "kg m-3", "density"),

@@ -112,6 +112,7 @@ class NetCDFWriter:
             frame = self._frames
             for name in ("position", "velocity", "pressure", "density"):
                 file[name][frame] = getattr(fields, name)
+            file["particles_outside"][frame] = simulation.particles_outside()
             file["ghost_pressure"][frame] = simulation.ghost_fields().pressure
             file["time"][frame] = simulation.time
             file.sync()

@@ -91,6 +91,9 @@ class FakeSimulation:
     def wall_forces(self) -> dict[str, Any]:
         return {wall.name: (np.array([1.0, 2.0]), np.array([1.5, 2.5])) for wall in self.scene.walls}
 
+    def particles_outside(self) -> int:
+        return 0
+
     def advance(self) -> None:
         self.step += 1
         self.time = self.step * self.time_step
