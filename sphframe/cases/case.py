@@ -3,16 +3,18 @@
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Any, ClassVar, Literal, NamedTuple
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, Field, model_serializer, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_serializer, model_validator
 
+from sphframe.cases.explain import explain
+from sphframe.errors import InputError
 from sphframe.geometry import Region, Wall
 from sphframe.interfaces import RigidBody
 
-__all__ = ["Case", "Component", "Diagnostic", "Fields", "Gauge", "Probe", "Scene", "quantity"]
+__all__ = ["Case", "Component", "Derived", "Diagnostic", "Fields", "Gauge", "Probe", "Scene", "quantity"]
 
 Array = NDArray[np.float64]
 
@@ -39,8 +41,16 @@ class Component(BaseModel):
         return {"name": self.name, **self.options}
 
 
+@dataclass(frozen=True)
+class Derived:
+    """A default that follows from other parameters: ``Derived("2 depth", lambda case: 2 * case.depth)``."""
+
+    text: str
+    function: Callable[[Any], Any]
+
+
 def quantity(default: Any, unit: str, description: str, **bounds: Any) -> Any:
-    """A parameter of a case with its unit; ``default`` may be ``...`` for a required one."""
+    """A parameter of a case with its unit; ``default`` may be ``...`` for a required one, or :class:`Derived`."""
     return Field(default, description=description, json_schema_extra={"unit": unit}, **bounds)
 
 
@@ -54,24 +64,32 @@ class Fields(NamedTuple):
 
 
 class Probe(BaseModel):
-    """A pressure sensor: a point, or a disc of ``radius`` over whose wall-parallel diameter the pressure is averaged."""
+    """A pressure sensor: a point, or a disc of ``radius`` whose pressure is averaged along its ``tangent``."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
-    name: str
-    position: tuple[float, ...]
+    name: str = Field(min_length=1, max_length=64)
+    position: tuple[float, ...] = Field(min_length=2, max_length=3)
     radius: Annotated[float, Field(ge=0)] = 0.0
-    tangent: tuple[float, ...] | None = None
-    """unit vector along the wall, needed for a disc"""
+    tangent: Annotated[tuple[float, ...], Field(min_length=2, max_length=3)] | None = None
+    """direction along the wall, needed for a disc"""
+
+    @model_validator(mode="after")
+    def _disc_has_a_direction(self) -> "Probe":
+        if self.radius > 0 and self.tangent is None:
+            raise ValueError("a probe with a radius is a disc: give its tangent, a vector along the wall")
+        if self.tangent is not None and not any(self.tangent):
+            raise ValueError("tangent is the zero vector: give a vector along the wall, such as [0, 1]")
+        return self
 
 
 class Gauge(BaseModel):
     """A free-surface elevation gauge at the horizontal position ``position`` (x in 2-D; x, y in 3-D)."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
-    name: str
-    position: tuple[float, ...]
+    name: str = Field(min_length=1, max_length=64)
+    position: tuple[float, ...] = Field(min_length=1, max_length=2)
 
 
 @dataclass(frozen=True)
@@ -104,7 +122,12 @@ class Scene:
 
 
 class Case(BaseModel, ABC):
-    """A case: its parameters are fields with units; :meth:`scene` draws it."""
+    """A case: its parameters are fields with units; :meth:`scene` draws it.
+
+    Raises
+    ------
+    InputError: one line for every parameter that is unknown, missing or outside its bounds, when the case is made.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
@@ -136,6 +159,27 @@ class Case(BaseModel, ABC):
     until: float = quantity(..., "s", "time at which the run ends", gt=0)
     frame_interval: float = quantity(..., "s", "time between stored frames of all particles", gt=0)
     probe_interval: float = quantity(..., "s", "time between samples of probes, energies and diagnostics", gt=0)
+
+    def __init__(self, **parameters: Any) -> None:
+        try:
+            super().__init__(**parameters)
+        except ValidationError as error:
+            raise InputError(explain(error, type(self))) from None
+
+    @field_validator("*", mode="before")
+    @classmethod
+    def _no_boolean_numbers(cls, given: Any) -> Any:
+        if isinstance(given, bool):
+            raise ValueError("must be a number, a text or a table, not true or false")
+        return given
+
+    @model_validator(mode="after")
+    def _derive_defaults(self) -> Self:
+        for name in type(self).model_fields:
+            value = getattr(self, name)
+            if isinstance(value, Derived):
+                object.__setattr__(self, name, value.function(self))
+        return self
 
     @abstractmethod
     def scene(self) -> Scene:

@@ -1,5 +1,6 @@
 """Equations of state: Tait's."""
 
+import math
 from dataclasses import dataclass
 
 from sphframe.errors import InputError
@@ -31,7 +32,7 @@ class Tait(EquationOfState):
     >>> tait = Tait(gamma=7.0)
     >>> pressure = tait.pressure_function()(1001.0, 1000.0, 40.0)
     >>> round(pressure, 3)
-    1604.806
+    1604.808
     >>> round(tait.density_function()(pressure, 1000.0, 40.0), 9)
     1001.0
     """
@@ -48,7 +49,7 @@ class Tait(EquationOfState):
 
         def pressure(density: float, reference_density: float, sound_speed: float) -> float:
             stiffness = reference_density * sound_speed * sound_speed / gamma
-            return stiffness * ((density / reference_density) ** gamma - 1.0)
+            return stiffness * (math.pow(density / reference_density, gamma) - 1.0)
 
         return pressure
 
@@ -58,7 +59,7 @@ class Tait(EquationOfState):
 
         def density(pressure: float, reference_density: float, sound_speed: float) -> float:
             stiffness = reference_density * sound_speed * sound_speed / gamma
-            return reference_density * (1.0 + pressure / stiffness) ** (1.0 / gamma)
+            return reference_density * math.pow(1.0 + pressure / stiffness, 1.0 / gamma)
 
         return density
 
@@ -67,6 +68,6 @@ class Tait(EquationOfState):
         gamma = float(self.gamma)
 
         def sound_speed_at(density: float, reference_density: float, sound_speed: float) -> float:
-            return sound_speed * (density / reference_density) ** (0.5 * (gamma - 1.0))
+            return sound_speed * math.pow(density / reference_density, 0.5 * (gamma - 1.0))
 
         return sound_speed_at

@@ -1,0 +1,23 @@
+"""Cases: what to simulate, as frozen and validated parameters in SI units; built-in, from a TOML file, or in Python."""
+
+from sphframe.cases.case import Case, Component, Derived, Diagnostic, Fields, Gauge, Probe, Scene, quantity
+from sphframe.cases.checks import CaseWarning, check_case
+from sphframe.cases.custom import Custom
+from sphframe.cases.load import load_case, read_toml
+
+__all__ = [
+    "Case",
+    "CaseWarning",
+    "Component",
+    "Custom",
+    "Derived",
+    "Diagnostic",
+    "Fields",
+    "Gauge",
+    "Probe",
+    "Scene",
+    "check_case",
+    "load_case",
+    "quantity",
+    "read_toml",
+]

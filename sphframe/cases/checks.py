@@ -1,0 +1,205 @@
+"""Cases: contradictions between parameters that are each valid alone."""
+
+import math
+import warnings
+from collections import Counter
+from collections.abc import Iterator
+
+import numpy as np
+
+from sphframe.cases.case import Case, Component, Scene
+from sphframe.errors import InputError, SphframeError
+from sphframe.geometry import Region, lattice
+from sphframe.interfaces import Integrator
+from sphframe.registry import create
+
+__all__ = ["CaseWarning", "check_case"]
+
+_MOST_PARTICLES = 50_000_000
+_MOST_FRAMES = 100_000
+_MOST_SAMPLES = 20_000_000
+_COMPONENTS = {
+    "interpolator": "interpolators",
+    "kernel": "kernels",
+    "equation_of_state": "equations_of_state",
+    "integrator": "integrators",
+}
+
+
+class CaseWarning(UserWarning):
+    """When the parameters of a case can be run, but are not likely to give what is wanted."""
+
+
+def check_case(case: Case) -> None:
+    """Check what one parameter alone cannot tell: components and their options, the scene, sizes, stability.
+
+    Warns
+    -----
+    CaseWarning: few particles over the depth, a time step above the stability limit, a sound speed that makes the
+        water too compressible.
+
+    Raises
+    ------
+    InputError: when parameters contradict each other; all that is found, one line each.
+    PluginError: when the only thing wrong is one component.
+    """
+    errors = _component_errors(case)
+    if not errors:
+        try:
+            scene = case.scene()
+        except SphframeError as error:
+            errors.append(error)
+        else:
+            errors.extend(InputError(problem) for problem in _scene_problems(case, scene))
+    if len(errors) == 1:
+        raise errors[0]
+    if errors:
+        title = f"{type(case).__name__}: {len(errors)} things are wrong:"
+        raise InputError("\n".join([title, *(f"  {error}" for error in errors)]))
+    for message in _doubts(case, scene):
+        warnings.warn(message, CaseWarning, stacklevel=2)
+
+
+def _component_errors(case: Case) -> list[SphframeError]:
+    errors = []
+    for field, kind in _COMPONENTS.items():
+        component: Component = getattr(case, field)
+        try:
+            create(kind, component.name, **component.options)
+        except SphframeError as error:
+            errors.append(error)
+    return errors
+
+
+def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
+    dim, spacing = case.dimension, case.particle_spacing
+    shape_problems = [*_dimension_problems(dim, scene), *_name_problems(scene)]
+    yield from shape_problems
+    if case.gravity == 0.0 and case.sound_speed is None:
+        yield "gravity = 0 leaves no scale for the sound speed; give sound_speed, ten times the fastest flow or more"
+    if spacing > scene.depth / 4.0:
+        yield (
+            f"particle_spacing = {spacing:g} m is more than a quarter of the water depth, {scene.depth:g} m;"
+            f" choose {scene.depth / 20.0:.2g} m or less"
+        )
+    yield from _output_problems(case)
+    if shape_problems:
+        return
+    count = sum(float(np.prod((np.asarray(region.upper) - region.lower) / spacing)) for region in scene.fluid)
+    if count > _MOST_PARTICLES:
+        yield (
+            f"particle_spacing = {spacing:g} m would need {count:.2g} particles; choose a larger spacing"
+            f" (at most {_MOST_PARTICLES:,} particles)"
+        )
+        return
+    for index, region in enumerate(scene.fluid):
+        yield from _region_problems(case, scene, index, region)
+    lower, upper = np.array(scene.domain)
+    for probe in scene.probes:
+        if np.any(np.array(probe.position) < lower) or np.any(np.array(probe.position) > upper):
+            yield f"probe {probe.name!r} at {probe.position} lies outside the domain {scene.domain}; move it to a wall"
+
+
+def _dimension_problems(dim: int, scene: Scene) -> Iterator[str]:
+    def expected(what: str, found: int, wanted: int) -> Iterator[str]:
+        if found != wanted:
+            yield f"{what} has {found} coordinates, but dimension = {dim} needs {wanted}"
+
+    for wall in scene.walls:
+        yield from expected(f"wall {wall.name!r}", wall.dimension, dim)
+    for index, region in enumerate(scene.fluid):
+        yield from expected(f"fluid[{index}]", len(np.asarray(region.lower)), dim)
+    for probe in scene.probes:
+        yield from expected(f"position of probe {probe.name!r}", len(probe.position), dim)
+        if probe.tangent is not None:
+            yield from expected(f"tangent of probe {probe.name!r}", len(probe.tangent), dim)
+    for gauge in scene.gauges:
+        yield from expected(f"position of gauge {gauge.name!r}", len(gauge.position), dim - 1)
+    for corner, name in zip(scene.domain, ("lower", "upper"), strict=True):
+        yield from expected(f"{name} corner of the domain", len(corner), dim)
+
+
+def _name_problems(scene: Scene) -> Iterator[str]:
+    named = {
+        "walls": [wall.name for wall in scene.walls],
+        "probes": [probe.name for probe in scene.probes],
+        "gauges": [gauge.name for gauge in scene.gauges],
+    }
+    for what, names in named.items():
+        for name, count in Counter(names).items():
+            if count > 1:
+                yield f"{count} {what} are called {name!r}; give each a name of its own"
+    for wall in scene.walls:
+        if wall.body is not None and wall.body not in scene.bodies:
+            known = ", ".join(scene.bodies) or "none"
+            yield f"wall {wall.name!r} belongs to body {wall.body!r}, which is not given; bodies: {known}"
+
+
+def _output_problems(case: Case) -> Iterator[str]:
+    for name, limit in (("frame_interval", _MOST_FRAMES), ("probe_interval", _MOST_SAMPLES)):
+        interval = getattr(case, name)
+        if case.until / interval > limit:
+            yield (
+                f"{name} = {interval:g} s with until = {case.until:g} s asks for {case.until / interval:.2g} outputs;"
+                f" choose {case.until / limit:.2g} s or more"
+            )
+
+
+def _region_problems(case: Case, scene: Scene, index: int, region: Region) -> Iterator[str]:
+    position = lattice(region, case.particle_spacing)
+    if len(position) == 0:
+        yield f"fluid[{index}] holds no particle; enlarge it or choose a smaller particle_spacing"
+        return
+    for wall in scene.walls:
+        behind = int(np.count_nonzero(wall.is_behind(position)))
+        if behind:
+            yield (
+                f"{behind} of {len(position)} particles of fluid[{index}] lie behind wall {wall.name!r}; draw the fluid"
+                f" within the walls, and a polygonal wall so that the fluid is on its left"
+            )
+    rim = max(float(line[:, -1].max()) for wall in scene.walls for line in wall.outline())
+    top = float(position[:, -1].max())
+    if top > rim:
+        yield f"fluid[{index}] reaches {top:g} m, above the rim of the walls at {rim:g} m; raise the walls"
+    lower, upper = np.array(scene.domain)
+    outside = int(np.count_nonzero(np.any((position < lower) | (position > upper), axis=1)))
+    if outside:
+        yield (
+            f"{outside} of {len(position)} particles of fluid[{index}] lie outside the domain {scene.domain};"
+            f" enlarge the domain"
+        )
+
+
+def _doubts(case: Case, scene: Scene) -> Iterator[str]:
+    layers = scene.depth / case.particle_spacing
+    if layers < 9.5:
+        yield (
+            f"particle_spacing = {case.particle_spacing:g} m leaves {layers:.3g} particles over the depth of"
+            f" {scene.depth:g} m; 10 or more are needed for a result worth having"
+        )
+    wave_speed = math.sqrt(case.gravity * scene.depth)
+    sound_speed = case.sound_speed or 20.0 * wave_speed
+    if sound_speed < 10.0 * wave_speed:
+        yield (
+            f"sound_speed = {sound_speed:g} m/s is below 10 sqrt(g H) = {10 * wave_speed:.3g} m/s: densities will vary"
+            f" by more than a per cent"
+        )
+    integrator: Integrator = create("integrators", case.integrator.name, **case.integrator.options)
+    courant = _largest_courant_number(case, sound_speed)
+    if courant is not None and courant[0] > integrator.stability_limit:
+        number, parameter = courant
+        limit = integrator.stability_limit * case.smoothing_length_ratio * case.particle_spacing / sound_speed
+        yield (
+            f"{parameter} gives c0 dt/h = {number:.3g}, above the stability limit {integrator.stability_limit:g} of"
+            f" {case.integrator.name}; choose a time step below {limit:.3g} s"
+        )
+
+
+def _largest_courant_number(case: Case, sound_speed: float) -> tuple[float, str] | None:
+    """c0 dt/h of a fluid at rest and the parameter that sets it; None by default, when the integrator chooses."""
+    if case.time_step is not None:
+        number = sound_speed * case.time_step / (case.smoothing_length_ratio * case.particle_spacing)
+        return number, f"time_step = {case.time_step:g} s"
+    if case.courant_number is not None:
+        return case.courant_number, f"courant_number = {case.courant_number:g}"
+    return None

@@ -1,0 +1,84 @@
+"""Cases: one of your own, given as data."""
+
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sphframe.cases.case import Case, Component, Derived, Gauge, Probe, Scene, quantity
+from sphframe.geometry import Region, Wall
+from sphframe.registry import create
+
+__all__ = ["Custom"]
+
+Array = NDArray[np.float64]
+
+
+class Custom(Case):
+    """Walls, fluid, bodies, probes and gauges, as fields here or as tables of a TOML file.
+
+    All lengths in m. A polygonal wall has the fluid on its left when its points are traversed; a box wall contains
+    it. Water starts at rest below the highest point of the fluid. Bodies carry the walls that name them.
+
+    Examples
+    --------
+    A tank one metre long with a slope at its right end:
+
+    >>> from sphframe.geometry import PolygonRegion, PolygonWall
+    >>> case = Custom(
+    ...     particle_spacing=0.02,
+    ...     until=1.0,
+    ...     walls=[PolygonWall(name="tank", points=[(0, 0.5), (0, 0), (1, 0), (1.5, 0.5)])],
+    ...     fluid=[PolygonRegion(points=[(0, 0), (1, 0), (1.3, 0.3), (0, 0.3)])],
+    ...     probes=[{"name": "corner", "position": (0, 0)}],
+    ... )
+    >>> case.scene().depth
+    0.3
+    """
+
+    title: ClassVar[str] = "walls, fluid, bodies, probes and gauges of your own"
+
+    walls: tuple[Wall, ...] = quantity(..., "m", "walls, polygons or boxes", min_length=1)
+    fluid: tuple[Region, ...] = quantity(..., "m", "regions full of fluid, polygons or boxes", min_length=1)
+    bodies: dict[str, Component] = quantity({}, "1", "bodies that carry walls, by the name that the walls refer to")
+    probes: tuple[Probe, ...] = quantity((), "m", "pressure sensors on walls")
+    gauges: tuple[Gauge, ...] = quantity((), "m", "gauges of the free surface")
+    depth: float | None = quantity(
+        None, "m", "still water depth H, the scale of pressure; by default the fluid's vertical extent", gt=0
+    )
+    domain: tuple[tuple[float, ...], tuple[float, ...]] | None = quantity(
+        None, "m", "corners of the box that no particle may leave; by default around all walls, twice as high"
+    )
+    frame_interval: float = quantity(
+        Derived("until / 100", lambda case: case.until / 100.0),
+        "s",
+        "time between stored frames of all particles",
+        gt=0,
+    )
+    probe_interval: float = quantity(
+        Derived("until / 2000", lambda case: case.until / 2000.0),
+        "s",
+        "time between samples of probes, energies and diagnostics",
+        gt=0,
+    )
+
+    def scene(self) -> Scene:
+        """Return what was given, with its bodies made."""
+        lower = np.min([np.asarray(region.lower) for region in self.fluid], axis=0)
+        upper = np.max([np.asarray(region.upper) for region in self.fluid], axis=0)
+        return Scene(
+            walls=self.walls,
+            fluid=self.fluid,
+            depth=self.depth or float(upper[-1] - lower[-1]),
+            domain=self.domain or self._around_everything(lower, upper),
+            probes=self.probes,
+            gauges=self.gauges,
+            bodies={name: create("rigid_bodies", body.name, **body.options) for name, body in self.bodies.items()},
+        )
+
+    def _around_everything(self, lower: Array, upper: Array) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        corners = np.vstack([*(line for wall in self.walls for line in wall.outline()), lower[None, :], upper[None, :]])
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        high[-1] += high[-1] - low[-1]
+        margin = self.particle_spacing
+        return tuple((low - margin).tolist()), tuple((high + margin).tolist())

@@ -1,0 +1,146 @@
+"""Cases: the dam break against a vertical wall."""
+
+import math
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sphframe.cases.box_tank import box_tank, domain_above, water_box, with_width
+from sphframe.cases.case import Case, Derived, Diagnostic, Fields, Probe, Scene, quantity
+from sphframe.cases.dam_break_series import dam_break_pressure
+
+__all__ = ["DamBreak", "connected_extent"]
+
+Array = NDArray[np.float64]
+
+
+class DamBreak(Case):
+    """A column of water, 1.2 m by 0.6 m, collapses and runs against a wall: section 4.2 of Huang et al. (2019).
+
+    The pressure at the start is that of the corrected series (:mod:`sphframe.cases.dam_break_series`), the gate being
+    gone at once. ``P1`` is Buchner's sensor, a disc of 90 mm centred 160 mm above the bed of the right wall (for
+    another water height: 0.15 H and 4/15 H), over which the pressure is averaged; ``P1-point`` is its centre alone.
+
+    Diagnostics: ``front_position``, the x of the surge front, and ``column_height``, the height of the water at the
+    left wall. Both look at the water within max(H/20, 3 dx) of the bed (wall) and end at the first gap wider than two
+    smoothing lengths: particles nearer than that still act on each other, a splash drop ahead of the
+    surge does not count. Half a spacing is added, so that they start as L and H and the front at the wall is there
+    when it is within a spacing of ``tank_length``.
+
+    Source: Huang et al. (2019), doi:10.3390/w11051098, section 4.2; B. Buchner, Green water on ship-type offshore
+    structures, PhD thesis, TU Delft (2002).
+
+    Examples
+    --------
+    >>> round(DamBreak().tank_length, 4), round(DamBreak(water_height=0.3).until, 3)
+    (3.2196, 1.224)
+    """
+
+    title: ClassVar[str] = "dam break against a vertical wall"
+    presets: ClassVar[Mapping[str, Mapping[str, Any]]] = {
+        "paper": {
+            "particle_spacing": 0.004,
+            "smoothing_length_ratio": 1.3,
+            "time_step": 1e-4,
+            "hydrostatic_lift": "mirror",
+            "frame_interval": 0.02,
+            "probe_interval": 0.001,
+        },
+    }
+
+    water_height: float = quantity(0.6, "m", "height H of the water column", gt=0)
+    water_length: float = quantity(
+        Derived("2 water_height", lambda case: 2.0 * case.water_height), "m", "length L of the water column", gt=0
+    )
+    tank_length: float = quantity(
+        Derived("5.366 water_height", lambda case: 5.366 * case.water_height), "m", "length of the tank", gt=0
+    )
+    tank_height: float = quantity(
+        Derived("3 water_height", lambda case: 3.0 * case.water_height), "m", "height of the walls", gt=0
+    )
+    tank_width: float = quantity(
+        Derived("water_height / 2", lambda case: 0.5 * case.water_height), "m", "width of the tank, in 3-D", gt=0
+    )
+    particle_spacing: float = quantity(0.01, "m", "spacing of the particles at the start", gt=0)
+    until: float = quantity(
+        Derived("7 sqrt(water_height / gravity)", lambda case: 7.0 * case.time_scale),
+        "s",
+        "time at which the run ends",
+        gt=0,
+    )
+    frame_interval: float = quantity(0.02, "s", "time between stored frames of all particles", gt=0)
+    probe_interval: float = quantity(0.001, "s", "time between samples of probes, energies and diagnostics", gt=0)
+
+    @property
+    def time_scale(self) -> float:
+        """sqrt(H/g), in s; one second without gravity."""
+        return math.sqrt(self.water_height / self.gravity) if self.gravity > 0.0 else 1.0
+
+    def scene(self) -> Scene:
+        """Draw the tank, the column at its left end, the sensor at its right end, and the diagnostics."""
+        dim, height, length = self.dimension, self.water_height, self.water_length
+        tank = box_tank(dim, self.tank_length, self.tank_width, self.tank_height)
+        sound_speed = self.sound_speed or 20.0 * math.sqrt(self.gravity * height)
+
+        def initial_pressure(position: Array) -> Array:
+            return dam_break_pressure(
+                position[:, 0],
+                position[:, -1],
+                height=height,
+                length=length,
+                reference_density=self.reference_density,
+                gravity=self.gravity,
+                sound_speed=sound_speed,
+            )
+
+        band = max(0.05 * height, 3.0 * self.particle_spacing)
+        gap = 2.0 * self.smoothing_length_ratio * self.particle_spacing
+
+        def front_position(fluid: Fields) -> float:
+            near_bed = fluid.position[:, -1] < band
+            return connected_extent(fluid.position[near_bed, 0], gap) + 0.5 * self.particle_spacing
+
+        def column_height(fluid: Fields) -> float:
+            near_wall = fluid.position[:, 0] < band
+            return connected_extent(fluid.position[near_wall, -1], gap) + 0.5 * self.particle_spacing
+
+        sensor = with_width(dim, self.tank_length, 0.5 * self.tank_width, height * 4.0 / 15.0)
+        return Scene(
+            walls=(tank,),
+            fluid=(water_box(dim, length, self.tank_width, height),),
+            depth=height,
+            domain=domain_above(tank, margin=self.particle_spacing),
+            probes=(
+                Probe(name="P1", position=sensor, radius=0.075 * height, tangent=with_width(dim, 0.0, 0.0, 1.0)),
+                Probe(name="P1-point", position=sensor),
+            ),
+            initial_pressure=initial_pressure,
+            diagnostics=(
+                Diagnostic("front_position", "m", "x of the surge front", front_position),
+                Diagnostic("column_height", "m", "height of the water at the left wall", column_height),
+            ),
+        )
+
+
+def connected_extent(coordinate: Array, gap: float) -> float:
+    """Return how far the particles reach from zero without a gap wider than ``gap``.
+
+    Parameters
+    ----------
+    coordinate: distances of the particles (n,), in m.
+    gap: widest gap that is bridged, in m; also that from zero to the first particle.
+
+    Returns
+    -------
+    The distance of the last particle before the first wide gap, in m; 0 where nothing is connected to zero.
+
+    Examples
+    --------
+    >>> connected_extent(np.array([0.3, 0.1, 0.2, 0.9]), gap=0.25)
+    0.3
+    """
+    reached = np.concatenate([[0.0], np.sort(coordinate)])
+    wide = np.flatnonzero(np.diff(reached) > gap)
+    return float(reached[wide[0]] if wide.size else reached[-1])

@@ -1,0 +1,157 @@
+"""Cases: from a name, a TOML file or an output file, a preset and overrides, to a checked case."""
+
+import json
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from sphframe.cases.case import Case, Component
+from sphframe.cases.checks import check_case
+from sphframe.errors import InputError
+from sphframe.registry import load
+from sphframe.registry.nearest import did_you_mean
+
+__all__ = ["load_case", "read_toml"]
+
+
+def load_case(source: str | Path | Case, preset: str | None = None, overrides: Mapping[str, Any] | None = None) -> Case:
+    """Return the case that ``source`` names, checked.
+
+    Parameters
+    ----------
+    source: the name of an installed case; a path that ends in ``.toml``, a case file (see :func:`read_toml`); a path
+        that ends in ``.nc``, an output of sphframe whose run is to be repeated; or a case.
+    preset: name of one of the case's presets.
+    overrides: parameters by name, ``interpolator.mu`` for an option of a component or any other value in a table.
+
+    Where the same parameter is given twice, overrides come before the preset, and the preset before the source.
+
+    Raises
+    ------
+    InputError: when a parameter is unknown, missing, of the wrong type, outside its bounds, or contradicts another;
+        when a file cannot be read.
+    PluginError: when the case or a component is not installed or broken.
+
+    Examples
+    --------
+    >>> case = load_case("hydrostatic-tank", "paper", {"particle_spacing": 0.02, "equation_of_state.name": "tait"})
+    >>> case.until, case.particle_spacing, case.equation_of_state.name
+    (35.0, 0.02, 'tait')
+    """
+    if isinstance(source, Case):
+        model, parameters = type(source), source.model_dump(exclude_unset=True)
+    elif Path(source).suffix == ".toml":
+        name, file_preset, parameters = read_toml(source)
+        model = load("cases", name)
+        parameters = {**_preset(model, file_preset), **parameters}
+    elif Path(source).suffix == ".nc":
+        name, parameters = _read_output(Path(source))
+        model = load("cases", name)
+    else:
+        model, parameters = load("cases", str(source)), {}
+    parameters = {**parameters, **_preset(model, preset)}
+    case: Case = model(**_merged(model, parameters, overrides or {}))
+    check_case(case)
+    return case
+
+
+def read_toml(path: str | Path) -> tuple[str, str | None, dict[str, Any]]:
+    """Return the name of the case, the preset and the parameters of a case file.
+
+    The key ``case`` names the case (default ``"custom"``), ``preset`` a preset; all others are parameters, components
+    and walls as tables::
+
+        case = "dam-break"
+        particle_spacing = 0.02
+
+        [interpolator]
+        name = "improved-shepard"
+        mu = 2.0
+
+    Raises
+    ------
+    InputError: when the file does not exist, is not TOML, or its ``case`` or ``preset`` is not a text.
+    """
+    path = Path(path)
+    try:
+        parameters = tomllib.loads(path.read_bytes().decode("utf-8"))
+    except (OSError, ValueError) as error:  # ValueError: of TOML and of UTF-8, and a null character in the path
+        raise InputError(f"cannot read the case file {path}: {_reason(error)}") from None
+    except RecursionError:
+        raise InputError(f"cannot read the case file {path}: its values are nested too deeply") from None
+    name = parameters.pop("case", "custom")
+    preset = parameters.pop("preset", None)
+    for key, value in (("case", name), ("preset", preset)):
+        if not isinstance(value, str | None):
+            raise InputError(f'{path}: {key} = {value!r} must be a text, such as {key} = "paper"')
+    return name, preset, parameters
+
+
+def _reason(error: Exception) -> str:
+    if isinstance(error, FileNotFoundError):
+        return "there is no such file"
+    if isinstance(error, OSError):
+        return (error.strerror or str(error)).lower()
+    if isinstance(error, UnicodeDecodeError):
+        return f"it is not a text in UTF-8 (byte {error.start})"
+    return f"it is not valid TOML: {error}"
+
+
+def _read_output(path: Path) -> tuple[str, dict[str, Any]]:
+    import netCDF4  # takes a tenth of a second, needed only here
+
+    try:
+        with netCDF4.Dataset(path) as dataset:
+            name, text = dataset.case_name, dataset.case_parameters
+    except FileNotFoundError:
+        raise InputError(f"cannot read {path}: there is no such file") from None
+    except AttributeError:
+        raise InputError(
+            f"{path} was not written by sphframe: it has no attributes case_name and case_parameters"
+        ) from None
+    except (OSError, ValueError, RuntimeError) as error:
+        raise InputError(f"cannot read {path}: it is not a NetCDF file, or is damaged ({error})") from None
+    try:
+        parameters = json.loads(text)
+    except (ValueError, TypeError, RecursionError):
+        parameters = None
+    if not isinstance(name, str) or not isinstance(parameters, dict):
+        raise InputError(f"{path}: its attributes case_name and case_parameters are damaged; run the case by name")
+    return name, parameters
+
+
+def _preset(model: type[Case], name: str | None) -> Mapping[str, Any]:
+    if name is None:
+        return {}
+    if name not in model.presets:
+        known = f"its presets: {', '.join(model.presets)}" if model.presets else "it has none"
+        raise InputError(f"{model.__name__} has no preset {name!r}{did_you_mean(name, model.presets)} {known}")
+    return model.presets[name]
+
+
+def _merged(model: type[Case], parameters: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, Any]:
+    merged = dict(parameters)
+    merged.update((key, value) for key, value in overrides.items() if "." not in key)
+    for key, value in overrides.items():
+        first, dot, rest = key.partition(".")
+        if dot:
+            merged[first] = _with_value(key, _as_table(model, first, merged), rest.split("."), value)
+    return merged
+
+
+def _as_table(model: type[Case], name: str, parameters: Mapping[str, Any]) -> Any:
+    if name not in model.model_fields:
+        raise InputError(f"{name} is not a parameter{did_you_mean(name, model.model_fields)}")
+    value = parameters.get(name, model.model_fields[name].default)
+    if isinstance(value, Component):
+        return value.model_dump()
+    return {"name": value} if isinstance(value, str) and model.model_fields[name].annotation is Component else value
+
+
+def _with_value(key: str, table: Any, path: list[str], value: Any) -> dict[str, Any]:
+    if not isinstance(table, Mapping):
+        raise InputError(f"{key}: nothing can be set inside {key.partition('.')[0]}, which is not a table")
+    first, *rest = path
+    inner = value if not rest else _with_value(key, table.get(first, {}), rest, value)
+    return {**table, first: inner}
