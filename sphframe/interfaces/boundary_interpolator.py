@@ -2,12 +2,17 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from sphframe.interfaces.kernel import CompiledKernel
 from sphframe.interfaces.traits import Traits
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 __all__ = ["BoundaryInterpolator", "WeightsFunction"]
 
@@ -66,6 +71,34 @@ class BoundaryInterpolator(ABC):
         The default is the kernel average, Phi_j = W_j V_j / sum_k W_k V_k, which exists for every cloud.
         """
         return kernel_average
+
+    @final
+    def operator(self, points: ArrayLike, cloud: Any) -> "csr_array":
+        """Return the sparse matrix of weights Phi (points, particles), so that value(points) = Phi @ f.
+
+        Parameters
+        ----------
+        points: (m, dim) or (dim,), m: evaluation points.
+        cloud: a :class:`sphframe.ParticleCloud` of n particles.
+
+        Returns
+        -------
+        csr_array (m, n); :func:`sphframe.boundary.operator.operator` returns the statuses too, and takes lifts.
+
+        Raises
+        ------
+        InputError: when a shape, a dimension or a number is not as it must be.
+        """
+        boundary = import_module("sphframe.boundary.operator")  # by name: an interface imports no other room
+        matrix, _ = boundary.operator(
+            self,
+            points,
+            cloud.positions,
+            cloud.volumes,
+            smoothing_length=cloud.smoothing_length,
+            kernel=cloud.kernel,
+        )
+        return matrix
 
 
 def kernel_average(

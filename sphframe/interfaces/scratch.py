@@ -1,5 +1,7 @@
 """Interfaces: scratch memory for weights functions, which must not allocate."""
 
+# mypy: disable-error-code="no-untyped-call, untyped-decorator"
+
 from typing import Any
 
 import numpy as np

@@ -1,0 +1,232 @@
+"""Boundary: an interpolation method as a sparse matrix, for analysis and tests.
+
+The solver interpolates without a matrix, but with the same compiled weights and fallback.
+"""
+
+# mypy: disable-error-code="no-untyped-call"
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csr_array
+from scipy.spatial import cKDTree
+
+from sphframe.errors import InputError
+from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint, Kernel
+from sphframe.interfaces.traits import DRY, OK
+from sphframe.registry import create
+from sphframe.specialise import compile_part, specialise
+
+__all__ = ["ParticleCloud", "compiled_kernel", "operator", "weights_loop"]
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class ParticleCloud:
+    """Fluid particles as an interpolation method sees them.
+
+    Attributes
+    ----------
+    positions: (n, dim), m, with dim 2 or 3.
+    volumes: (n,), m^dim, positive; one number stands for all.
+    smoothing_length: h, m; the cut-off radius is ``kernel.support`` times h.
+    kernel: the name of a kernel or a kernel.
+    """
+
+    positions: ArrayLike
+    volumes: ArrayLike
+    smoothing_length: float
+    kernel: str | Kernel = "gaussian"
+
+
+def operator(
+    interpolator: BoundaryInterpolator,
+    points: ArrayLike,
+    positions: ArrayLike,
+    volumes: ArrayLike,
+    *,
+    smoothing_length: float,
+    kernel: str | Kernel = "gaussian",
+    lift: ArrayLike | None = None,
+) -> tuple[csr_array, Integers]:
+    """Return the matrix Phi with value(points) = Phi @ f, and the status of each point.
+
+    Parameters
+    ----------
+    interpolator: the method.
+    points: (m, dim) or (dim,), m: evaluation points, dim 2 or 3.
+    positions: (n, dim), m: fluid particles.
+    volumes: (n,) or one number, m^dim: V_j = m_j / rho_j.
+    smoothing_length: h, m.
+    kernel: the name of a kernel or a kernel.
+    lift: (m, dim) or (dim,), m: from each point to its ghost, for a method that extrapolates; zero by default.
+
+    Returns
+    -------
+    Phi: csr_array (m, n), dimensionless, with an entry for each particle nearer than the cut-off, zeros included;
+        rows of points that the method cannot serve hold its fallback's weights, rows of dry points are empty.
+    statuses: (m,) integers, see :class:`sphframe.Status`.
+
+    Raises
+    ------
+    InputError: when a shape, a dimension or a number is not as above.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from sphframe import create
+    >>> from sphframe.boundary.operator import operator
+    >>> x, y = np.meshgrid(np.arange(8.0), np.arange(8.0))
+    >>> positions = np.column_stack([x.ravel(), y.ravel()])
+    >>> method = create("interpolators", "mls-linear")
+    >>> phi, statuses = operator(method, [3.3, 4.1], positions, 1.0, smoothing_length=1.3)
+    >>> (phi @ positions).round(12).tolist(), statuses.tolist()
+    ([[3.3, 4.1]], [0])
+    """
+    points = _points("points", points)
+    positions = _points("positions", positions)
+    m, dim = points.shape
+    if positions.shape[1] != dim:
+        raise InputError(
+            f"points are in {dim} dimensions and positions in {positions.shape[1]}: give both 2 or both 3 columns"
+        )
+    volumes = _filled("volumes", volumes, (len(positions),), "one number per particle, or one number for all")
+    if np.any(volumes <= 0.0):
+        j = int(np.argmax(volumes <= 0.0))
+        raise InputError(f"volumes must be positive, got {volumes[j]!r} for particle {j}: give m/rho, in m^{dim}")
+    if not (math.isfinite(smoothing_length) and smoothing_length > 0.0):
+        raise InputError(f"smoothing_length must be a positive number of metres, got {smoothing_length!r}")
+    lifts = _filled("lift", 0.0 if lift is None else lift, (m, dim), "one vector per point, or one for all")
+    if lift is not None and interpolator.traits.evaluation_point is not EvaluationPoint.EXTRAPOLATED:
+        raise InputError(
+            f"{type(interpolator).__name__} does not extrapolate and knows no lift: leave it out, and give the ghosts"
+            f" as points if their own neighbourhood is meant"
+        )
+    chosen = create("kernels", kernel) if isinstance(kernel, str) else kernel
+
+    support = chosen.support * smoothing_length
+    starts, members = _search(points, positions, support)
+    entries = np.zeros(len(members))
+    statuses = np.empty(m, dtype=np.int64)
+    weights_loop(interpolator, chosen, dim)(
+        positions, volumes, points, lifts, starts, members, support,
+        chosen.normalisation(dim) / smoothing_length**dim,
+        np.empty((len(members), dim)), np.empty(len(members)), np.empty(len(members)), np.empty(len(members)),
+        entries, statuses,
+    )  # fmt: skip
+    return csr_array((entries, members, starts), shape=(m, len(positions))), statuses
+
+
+def compiled_kernel(kernel: Kernel, dim: int) -> CompiledKernel:
+    """Return what an interpolation method is given of ``kernel`` in ``dim`` dimensions."""
+    return CompiledKernel(
+        compile_part(kernel.value_function()),
+        compile_part(kernel.gradient_function()),
+        kernel.support,
+        kernel.normalisation(dim),
+    )
+
+
+def weights_loop(interpolator: BoundaryInterpolator, kernel: Kernel, dim: int) -> Any:
+    """Return the compiled loop of :func:`operator` for one method, kernel and dimension."""
+    functions = compiled_kernel(kernel, dim)
+    return specialise(
+        _fill_rows,
+        {
+            "DIM": dim,
+            "PER_H": kernel.support,
+            "VALUE": functions.value,
+            "WEIGHTS": interpolator.point_weights(functions, dim),
+            "FALLBACK": interpolator.fallback_weights(functions, dim),
+        },
+        parallel=False,
+    )
+
+
+# parts bound by specialise()
+DIM = 2
+PER_H = 3.0  # R/h
+
+
+def VALUE(q):  # type: ignore[no-untyped-def]  # noqa: N802
+    """Stand for w(q) of the kernel."""
+
+
+def WEIGHTS(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]  # noqa: N802
+    """Stand for the method's weights."""
+
+
+def FALLBACK(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]  # noqa: N802
+    """Stand for the method's fallback."""
+
+
+def _fill_rows(  # type: ignore[no-untyped-def]
+    positions, volumes, points, lifts, starts, members, support, kernel_scale,
+    offsets, distances, kernel_values, neighbour_volumes, entries, statuses,
+):  # fmt: skip
+    per_h = PER_H / support
+    for i in range(points.shape[0]):
+        first, end = starts[i], starts[i + 1]
+        if first == end:
+            statuses[i] = DRY
+            continue
+        for e in range(first, end):
+            j = members[e]
+            square = 0.0
+            for k in range(DIM):
+                offsets[e, k] = positions[j, k] - points[i, k]
+                square += offsets[e, k] * offsets[e, k]
+            distances[e] = math.sqrt(square)
+            kernel_values[e] = kernel_scale * VALUE(distances[e] * per_h)
+            neighbour_volumes[e] = volumes[j]
+        x = offsets[first:end]
+        r = distances[first:end]
+        w = kernel_values[first:end]
+        v = neighbour_volumes[first:end]
+        statuses[i] = WEIGHTS(x, r, w, v, support, lifts[i], entries[first:end])
+        if statuses[i] != OK:
+            FALLBACK(x, r, w, v, support, lifts[i], entries[first:end])
+
+
+def _search(points: Array, positions: Array, support: float) -> tuple[Integers, Integers]:
+    """Return, in the manner of a CSR matrix, the particles nearer than ``support`` to each point."""
+    found = cKDTree(positions).query_ball_point(points, support, return_sorted=True)
+    counts = np.array([len(row) for row in found], dtype=np.int64)
+    members = np.fromiter((j for row in found for j in row), dtype=np.int64, count=int(counts.sum()))
+    rows = np.repeat(np.arange(len(points)), counts)
+    inside = np.sum((positions[members] - points[rows]) ** 2, axis=1) < support * support
+    starts = np.zeros(len(points) + 1, dtype=np.int64)
+    np.cumsum(np.bincount(rows[inside], minlength=len(points)), out=starts[1:])
+    return starts, members[inside]
+
+
+def _points(name: str, given: ArrayLike) -> Array:
+    array = _floats(name, given)
+    array = array[None, :] if array.ndim == 1 and array.size in (2, 3) else array
+    if array.ndim != 2 or array.shape[1] not in (2, 3):
+        raise InputError(f"{name} must have the shape (n, 2) or (n, 3), got {array.shape}: one row per point, in m")
+    return np.ascontiguousarray(array)
+
+
+def _filled(name: str, given: ArrayLike, shape: tuple[int, ...], meaning: str) -> Array:
+    array = _floats(name, given)
+    try:
+        return np.ascontiguousarray(np.broadcast_to(array, shape))
+    except ValueError:
+        raise InputError(f"{name} must have the shape {shape} ({meaning}), got {array.shape}") from None
+
+
+def _floats(name: str, given: ArrayLike) -> Array:
+    try:
+        array = np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} must be an array of numbers: {error}") from None
+    if not np.all(np.isfinite(array)):
+        place = tuple(int(k) for k in np.argwhere(~np.isfinite(array))[0])
+        raise InputError(f"{name} must be finite, got {array[place]} at index {place}")
+    return array
