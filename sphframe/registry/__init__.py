@@ -11,7 +11,7 @@ upgrade.
 """
 
 from sphframe.registry.components import check, create, load
-from sphframe.registry.entries import API_VERSION, KINDS, OLDEST_API_VERSION, Entry, available, clear, find
+from sphframe.registry.entries import API_VERSION, KINDS, OLDEST_API_VERSION, Entry, available, clear, find, is_address
 
 __all__ = [
     "API_VERSION",
@@ -23,5 +23,6 @@ __all__ = [
     "clear",
     "create",
     "find",
+    "is_address",
     "load",
 ]
