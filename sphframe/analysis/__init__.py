@@ -1,0 +1,28 @@
+"""Analysis: from a run's dataset to numbers and pictures. Importing it gives datasets the accessor ``sph``."""
+
+from sphframe.analysis.accessor import SphAccessor
+from sphframe.analysis.convergence import convergence_order, convergence_orders
+from sphframe.analysis.fields import free_surface, particles_at, to_grid
+from sphframe.analysis.plots import plot_run
+from sphframe.analysis.probes import probe_statistics, series_error
+from sphframe.analysis.reference import read_reference_series
+from sphframe.analysis.scales import pressure_scale, rest_pressure, time_scale
+from sphframe.analysis.summary import front_arrival, summary
+
+__all__ = [
+    "SphAccessor",
+    "convergence_order",
+    "convergence_orders",
+    "free_surface",
+    "front_arrival",
+    "particles_at",
+    "plot_run",
+    "pressure_scale",
+    "probe_statistics",
+    "read_reference_series",
+    "rest_pressure",
+    "series_error",
+    "summary",
+    "time_scale",
+    "to_grid",
+]

@@ -1,0 +1,67 @@
+"""Analysis: reference series that the user keeps in a folder."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from sphframe.errors import InputError
+
+__all__ = ["read_reference_series"]
+
+
+def read_reference_series(folder: str | os.PathLike[str], name: str, column: int | str = 1) -> xr.DataArray:
+    """Read the series ``folder/name.csv``.
+
+    The file is comma-separated; lines that start with ``#`` are its header, of which ``# columns: a,b,c`` names the
+    columns. The first column is the coordinate.
+
+    Parameters
+    ----------
+    folder: where the user keeps reference data; none comes with sphframe.
+    name: name of the file, without ``.csv``.
+    column: number (the coordinate is 0) or name of the column to read.
+
+    Returns
+    -------
+    The series, sorted by its coordinate ``t``, without missing values; the header's lines in the attribute ``header``,
+    the columns' names in ``long_name`` of the series and its coordinate.
+
+    Raises
+    ------
+    InputError: the folder or the file is missing, or is not such a table.
+    """
+    folder = Path(folder)
+    path = folder / f"{name}.csv"
+    if not folder.is_dir():
+        raise InputError(
+            f"the folder of reference series {folder} does not exist: give the folder that holds {name}.csv"
+        )
+    if not path.is_file():
+        present = ", ".join(sorted(p.stem for p in folder.glob("*.csv"))) or "no .csv file"
+        raise InputError(f"{folder} holds no {name}.csv; it holds {present}")
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+        header = [line.lstrip("# ").rstrip() for line in lines if line.startswith("#")]
+        rows = [line for line in lines if line.strip() and not line.startswith("#")]
+        if not rows:
+            raise ValueError("it has no rows")
+        table = np.array([[float(cell) if cell.strip() else np.nan for cell in row.split(",")] for row in rows])
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"{path} is not a reference series ({error}): expected comma-separated numbers below # headers"
+        ) from None
+    named = [line.removeprefix("columns:") for line in header if line.startswith("columns:")]
+    names = [cell.strip() for cell in named[0].split(",")] if named else []
+    names = [*names, *(f"column {k}" for k in range(len(names), table.shape[1]))]
+    index = names.index(column) if isinstance(column, str) and column in names else column
+    if isinstance(index, str) or not 0 <= index < table.shape[1]:
+        raise InputError(f"{path} has no column {column!r}; it has {', '.join(names[: table.shape[1]])}")
+    table = table[np.isfinite(table[:, index])]
+    table = table[np.argsort(table[:, 0], kind="stable")]
+    series = xr.DataArray(
+        table[:, index], coords={"t": table[:, 0]}, name=name, attrs={"long_name": names[index], "header": header}
+    )
+    series["t"].attrs["long_name"] = names[0]
+    return series

@@ -1,0 +1,39 @@
+"""Analysis: the scales that make a run's numbers dimensionless, and its state of rest."""
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["case_of", "pressure_scale", "rest_pressure", "time_scale"]
+
+
+def pressure_scale(dataset: xr.Dataset) -> float:
+    """rho0 g H in Pa, with H the still water depth of the case."""
+    return float(dataset.attrs["reference_density"] * dataset.attrs["gravity"] * dataset.attrs["depth"])
+
+
+def time_scale(dataset: xr.Dataset) -> float:
+    """sqrt(H/g) in s; 1 s without gravity."""
+    gravity = float(dataset.attrs["gravity"])
+    return math.sqrt(dataset.attrs["depth"] / gravity) if gravity > 0.0 else 1.0
+
+
+def rest_pressure(dataset: xr.Dataset, height: ArrayLike) -> NDArray[np.float64]:
+    """Pressure at rest in Pa at ``height`` (m) above the bed: rho0 c0^2 (exp(g (H - y)/c0^2) - 1), at least 0.
+
+    Holds for the linear equation of state; for Tait's it is right to (g H / c0^2)^2, 6e-6 at c0 = 20 sqrt(g H).
+    """
+    attributes = dataset.attrs
+    c2 = attributes["sound_speed"] ** 2
+    below = np.maximum(attributes["depth"] - np.asarray(height, dtype=np.float64), 0.0)
+    return np.asarray(attributes["reference_density"] * c2 * np.expm1(attributes["gravity"] * below / c2))
+
+
+def case_of(dataset: xr.Dataset) -> dict[str, Any]:
+    """Parameters of the case that was run, by name."""
+    parameters: dict[str, Any] = json.loads(dataset.attrs["case_parameters"])
+    return parameters

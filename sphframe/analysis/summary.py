@@ -1,0 +1,103 @@
+"""Analysis: what happened in a run, in a few numbers."""
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from sphframe.analysis.scales import case_of, pressure_scale, time_scale
+
+__all__ = ["front_arrival", "summary"]
+
+
+def summary(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return the key figures of a run as plain numbers and texts, fit for a table or JSON.
+
+    Returns
+    -------
+    A dictionary with, in SI units:
+
+    - ``case``, ``interpolator``, ``hydrostatic_lift``, ``particle_spacing``, ``particles``, ``ghosts``, ``completed``;
+    - ``time``, ``steps``, ``wall_clock``, ``steps_per_second``, ``particle_updates_per_second``;
+    - ``energy_excess``: largest total energy over its initial value, minus 1; ``mass_drift``: largest relative change
+      of the mass;
+    - ``particles_outside``: the most seen behind a wall in a frame;
+    - ``statuses``: share of each interpolation status among all ghosts and samples;
+    - ``peaks``: for each probe its ``pressure``, ``time``, and both over rho0 g H and sqrt(H/g);
+    - ``front_arrival``: see :func:`front_arrival`; None where the case has no front.
+    """
+    case = case_of(dataset)
+    sampled = dataset.sizes["probe_time"] > 0
+    result: dict[str, Any] = {
+        "case": dataset.attrs["case_name"],
+        "interpolator": case["interpolator"]["name"],
+        "hydrostatic_lift": case["hydrostatic_lift"],
+        "particle_spacing": float(dataset.attrs["particle_spacing"]),
+        "particles": int(dataset.sizes["particle"]),
+        "ghosts": int(dataset.sizes.get("ghost", 0)),
+        "completed": dataset.attrs["completed"],
+        "time": 0.0,
+        "steps": 0,
+        "wall_clock": 0.0,
+        "front_arrival": front_arrival(dataset),
+    }
+    if dataset.sizes["time"]:
+        result["particles_outside"] = int(dataset["particles_outside"].max())
+    if not sampled:
+        return result
+    last = dataset.isel(probe_time=-1)
+    wall_clock, steps = float(last["wall_clock"]), int(last["step"])
+    energy, mass = dataset["total_energy"].values, dataset["mass"].values
+    counts = dataset["interpolation_status"].sum("probe_time")
+    rate = steps / wall_clock if wall_clock > 0.0 else 0.0
+    result |= {
+        "time": float(last["probe_time"]),
+        "steps": steps,
+        "wall_clock": wall_clock,
+        "steps_per_second": rate,
+        "particle_updates_per_second": rate * result["particles"],
+        "energy_excess": float(np.max(energy) / energy[0] - 1.0) if energy[0] else 0.0,
+        "mass_drift": float(np.max(np.abs(mass / mass[0] - 1.0))),
+        "statuses": {
+            str(name): float(count) for name, count in zip(counts["status"].values, counts / counts.sum(), strict=True)
+        },
+        "peaks": _peaks(dataset),
+    }
+    return result
+
+
+def front_arrival(dataset: xr.Dataset) -> dict[str, float] | None:
+    """When the surge front reaches the far wall: ``time`` in s and ``dimensionless`` t sqrt(g/H).
+
+    The front is there once ``front_position`` is within one particle spacing of the rightmost point of the walls,
+    interpolated between samples. None when the case has no ``front_position`` or the front never arrives.
+    """
+    if "front_position" not in dataset or dataset.sizes["probe_time"] == 0:
+        return None
+    there = float(dataset["outline_node"].isel(space=0).max()) - float(dataset.attrs["particle_spacing"])
+    t, front = dataset["probe_time"].values, dataset["front_position"].values
+    reached = np.flatnonzero(front >= there)
+    if not reached.size:
+        return None
+    k = int(reached[0])
+    time = float(t[k])
+    if k > 0:
+        time -= float((front[k] - there) / (front[k] - front[k - 1]) * (t[k] - t[k - 1]))
+    return {"time": time, "dimensionless": time / time_scale(dataset)}
+
+
+def _peaks(dataset: xr.Dataset) -> dict[str, dict[str, float]]:
+    if "probe_pressure" not in dataset:
+        return {}
+    pressure = dataset["probe_pressure"].load()
+    peaks = {}
+    for name, series in zip(pressure["probe"].values, pressure.transpose("probe", ...), strict=True):
+        k = int(np.argmax(series.values))
+        value, time = float(series[k]), float(series["probe_time"][k])
+        peaks[str(name)] = {
+            "pressure": value,
+            "time": time,
+            "dimensionless_pressure": value / (pressure_scale(dataset) or 1.0),
+            "dimensionless_time": time / time_scale(dataset),
+        }
+    return peaks

@@ -1,0 +1,188 @@
+"""Analysis: numbers and pictures from a dataset are what the dataset says."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from sphframe.analysis import (
+    convergence_order,
+    front_arrival,
+    plot_run,
+    probe_statistics,
+    read_reference_series,
+    rest_pressure,
+    series_error,
+    summary,
+)
+from sphframe.errors import InputError, OutputError
+
+
+def test_importing_does_not_load_matplotlib() -> None:
+    program = "import sys, sphframe.analysis; print('matplotlib' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", program], capture_output=True, check=True).stdout == b"False\n"
+
+
+def test_summary_is_plain_data(tank: xr.Dataset) -> None:
+    figures = json.loads(json.dumps(summary(tank)))
+    assert figures["case"] == "hydrostatic-tank"
+    assert figures["particles"] == 480
+    assert figures["time"] == pytest.approx(0.02)
+    assert figures["completed"] == "yes"
+    assert sum(figures["statuses"].values()) == pytest.approx(1.0)
+    assert figures["peaks"]["P0"]["dimensionless_pressure"] == pytest.approx(1.0, abs=0.05)
+    assert figures["mass_drift"] == 0.0
+    assert figures["front_arrival"] is None
+
+
+def test_summary_of_a_run_that_has_just_begun(tank: xr.Dataset) -> None:
+    assert summary(tank.isel(probe_time=slice(0), time=slice(0)))["steps"] == 0
+
+
+def test_front_arrival_is_interpolated(tank: xr.Dataset) -> None:
+    """The far wall is at x = 1 m; a front moving at 100 m/s is within a spacing (0.025 m) of it at 9.75 ms."""
+    front = 100.0 * tank["probe_time"]
+    arrival = front_arrival(tank.assign(front_position=front))
+    assert arrival is not None
+    assert arrival["time"] == pytest.approx(0.00975)
+    assert arrival["dimensionless"] == pytest.approx(0.00975 * np.sqrt(9.81 / 0.3))
+    assert front_arrival(tank.assign(front_position=0.1 * front)) is None
+
+
+def test_rest_pressure_is_compressible(tank: xr.Dataset) -> None:
+    p = rest_pressure(tank, [0.0, 0.1, 0.3, 0.5])
+    np.testing.assert_allclose(p, [2943.0 * (1 + 0.5 / 400), 1962.0 * (1 + 0.5 * 2 / 3 / 400), 0.0, 0.0], rtol=2e-6)
+
+
+def test_probe_statistics(tank: xr.Dataset) -> None:
+    t = tank["probe_time"]
+    made = tank.assign(probe_pressure=tank["probe_pressure"] * 0 + t)
+    statistics = probe_statistics(made, start=0.0049, stop=0.0151, expected=np.zeros(4))
+    inside = t.values[(t.values >= 0.0049) & (t.values <= 0.0151)]
+    np.testing.assert_allclose(statistics["mean"], inside.mean())
+    np.testing.assert_allclose(statistics["error"], inside.mean())
+    np.testing.assert_allclose(statistics["std"].sel(probe="P2"), inside.std())
+    with pytest.raises(InputError, match="covers 0 to"):
+        probe_statistics(made, start=7.0)
+    with pytest.raises(InputError, match="no probes"):
+        probe_statistics(tank.drop_vars("probe_pressure"))
+
+
+def test_fields_at_a_time(tank: xr.Dataset) -> None:
+    frame = tank.sph.at(0.0101)
+    assert float(frame.time) == pytest.approx(0.01, abs=0.001)
+    assert frame.speed.shape == (480,)
+    assert float(tank.sph.at().time) == pytest.approx(0.02)
+    with pytest.raises(InputError, match="outside the run"):
+        tank.sph.at(5.0)
+    with pytest.raises(InputError, match="no frame yet"):
+        tank.isel(time=slice(0)).sph.at()
+
+
+@pytest.mark.parametrize("name", ["tank", "tank_3d"])
+def test_free_surface_and_grid(name: str, request: pytest.FixtureRequest) -> None:
+    dataset = request.getfixturevalue(name)
+    surface = dataset.sph.free_surface()
+    np.testing.assert_allclose(surface, 0.3, atol=0.005)
+    assert surface.units == "m"
+    pressure = dataset.sph.to_grid("pressure", resolution=0.05)
+    assert pressure.units == "Pa"
+    vertical = "y" if name == "tank" else "z"
+    assert pressure.dims[0] == vertical
+    inside = pressure.where((pressure[vertical] > 0.08) & (pressure[vertical] < 0.22), drop=True)
+    expected = xr.DataArray(rest_pressure(dataset, inside[vertical]), dims=(vertical,))
+    assert float(np.abs(inside - expected).max()) < 60.0, "a grid value differs from the rest state by over 2 % rho g H"
+    assert dataset.sph.to_grid("velocity").dims[-1] == "space"
+    with pytest.raises(InputError, match="no field"):
+        dataset.sph.to_grid("colour")
+
+
+def test_dimensionless_series(tank: xr.Dataset) -> None:
+    series = tank.sph.dimensionless("probe_pressure").sel(probe="P0")
+    assert float(series[0]) == pytest.approx(1.0, abs=0.02)
+    assert series.units == "1"
+    np.testing.assert_allclose(series.probe_time, tank.probe_time * np.sqrt(9.81 / 0.3))
+    reference = xr.DataArray(np.full(3, 0.5), coords={"t": [0.0, 0.05, 0.1]})
+    assert tank.sph.error("probe_pressure", reference, probe="P0")["bias"] == pytest.approx(0.5, abs=0.02)
+
+
+def test_series_that_do_not_overlap() -> None:
+    series = xr.DataArray([0.0, 1.0], coords={"t": [0.0, 1.0]})
+    with pytest.raises(InputError, match="do not overlap"):
+        series_error(series, xr.DataArray([0.0, 1.0], coords={"t": [5.0, 6.0]}))
+
+
+def test_convergence_order() -> None:
+    spacings = np.array([0.04, 0.02, 0.01])
+    assert convergence_order(spacings, 3.0 * spacings**1.5) == pytest.approx(1.5)
+    for bad in ([0.1], [0.0, 1.0]):
+        with pytest.raises(InputError):
+            convergence_order(bad, bad)
+
+
+def test_reference_series(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("# source: nobody\n# columns: t,p,q\n2,20,\n1,10,5\n")
+    series = read_reference_series(tmp_path, "a", "p")
+    assert series.t.values.tolist() == [1.0, 2.0]
+    assert series.values.tolist() == [10.0, 20.0]
+    assert series.long_name == "p"
+    assert read_reference_series(tmp_path, "a", "q").values.tolist() == [5.0]
+
+
+@pytest.mark.parametrize(
+    ("name", "column", "text", "message"),
+    [
+        ("b", 1, "1,2", "holds no b.csv; it holds a"),
+        ("a", 1, "one,two", "not a reference series"),
+        ("a", 1, "# nothing", "it has no rows"),
+        ("a", "z", "# columns: t,p\n1,2", "no column 'z'; it has t, p"),
+        ("a", 7, "1,2", "no column 7"),
+        ("a", 1, "1,2\n3", "not a reference series"),
+    ],
+)
+def test_bad_reference_series(tmp_path: Path, name: str, column: int | str, text: str, message: str) -> None:
+    (tmp_path / "a.csv").write_text(text)
+    with pytest.raises(InputError, match=message):
+        read_reference_series(tmp_path, name, column)
+
+
+def test_missing_reference_folder(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="does not exist"):
+        read_reference_series(tmp_path / "none", "a")
+
+
+@pytest.mark.parametrize("name", ["tank", "tank_3d"])
+@pytest.mark.parametrize("field", ["pressure", "speed"])
+def test_plot(name: str, field: str, tmp_path: Path, request: pytest.FixtureRequest) -> None:
+    dataset = request.getfixturevalue(name)
+    figure = plot_run(dataset, tmp_path / "run.png", field=field)
+    assert (tmp_path / "run.png").stat().st_size > 10_000
+    shown = " ".join(text.get_text() for text in figure.findobj(lambda artist: hasattr(artist, "get_text")))
+    for word in ("Still water", "improved-shepard", "particles", field, "m/s" if field == "speed" else "kPa", "t"):
+        assert word in shown, f"the picture does not say {word}"
+
+
+def test_plot_of_a_run_that_has_just_begun(tank: xr.Dataset, tmp_path: Path) -> None:
+    plot_run(tank.isel(time=slice(1), probe_time=slice(1)), tmp_path / "run.png")
+    with pytest.raises(InputError, match="no frame yet"):
+        plot_run(tank.isel(time=slice(0)))
+
+
+def test_plot_with_reference_and_without_probes(tank: xr.Dataset) -> None:
+    reference = xr.DataArray([0.9, 1.0], coords={"t": [0.0, 0.1]}, name="measured")
+    figure = plot_run(tank, reference=reference, times=[0.0])
+    assert "measured" in [text.get_text() for text in figure.findobj() if hasattr(text, "get_text")]
+    plot_run(tank.drop_vars("probe_pressure"))
+
+
+def test_picture_that_cannot_be_written(tank: xr.Dataset, tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match="cannot write the picture"):
+        plot_run(tank, tmp_path / "nowhere" / "run.png")
+    with pytest.raises(OutputError, match=r"\.png"):
+        plot_run(tank, tmp_path / "run.xyz")
+    with pytest.raises(InputError, match="pressure, speed"):
+        plot_run(tank, field="colour")
