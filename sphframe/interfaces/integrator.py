@@ -9,27 +9,42 @@ __all__ = ["Integrator", "System"]
 class System(Protocol):
     """An ordinary differential equation dy/dt = f(t, y), as an integrator sees it.
 
-    The state y holds positions, velocities and (for a fluid) densities; f holds velocities, accelerations and density
-    rates. The system owns all arrays: an integrator says which combination comes next and never touches them.
+    The state y holds positions x, velocities u and (for a fluid) densities; its rates f are velocities, accelerations
+    and density rates. The system owns all arrays: an integrator says what comes next and never touches them.
+
+    A one-step scheme of Runge-Kutta type holds the start y0, evaluates all rates and advances; a splitting scheme
+    evaluates density rates and accelerations apart and drifts, kicks and updates densities in turn.
     """
 
-    def hold(self) -> None:
-        """Remember the present state as the start y0 of the step."""
-
     def evaluate(self, time: float) -> None:
-        """Compute the rates f(time, y) of the present state."""
+        """Compute all rates f(time, y) of the present state."""
+
+    def hold(self) -> None:
+        """Remember the present state as the start y0 of the step and clear the total."""
 
     def advance(self, interval: float) -> None:
         """y = y0 + interval * f."""
 
     def accumulate(self, weight: float) -> None:
-        """total = total + weight * f; :meth:`hold` clears the total."""
+        """total = total + weight * f."""
 
     def advance_total(self, interval: float) -> None:
         """y = y0 + interval * total."""
 
-    def centre_positions(self, interval: float) -> None:
-        """x = x0 + interval * (u0 + u) / 2, with the present velocity u."""
+    def evaluate_density(self, time: float) -> None:
+        """Compute the density rates of the present state."""
+
+    def evaluate_acceleration(self, time: float) -> None:
+        """Compute the accelerations of the present state."""
+
+    def drift(self, interval: float) -> None:
+        """x = x + interval * u."""
+
+    def kick(self, interval: float) -> None:
+        """u = u + interval * acceleration, with the accelerations last computed."""
+
+    def update_density(self, interval: float) -> None:
+        """rho = rho + interval * density rate, with the density rates last computed."""
 
 
 class Integrator(ABC):
@@ -46,4 +61,7 @@ class Integrator(ABC):
 
     @abstractmethod
     def step(self, system: System, time: float, time_step: float) -> None:
-        """Advance ``system`` from ``time`` to ``time + time_step`` (seconds)."""
+        """Advance ``system`` from ``time`` to ``time + time_step`` (seconds).
+
+        The accelerations that the step before has left (at the start, those of the initial state) may be used.
+        """

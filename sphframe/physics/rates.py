@@ -1,4 +1,7 @@
-"""Physics: all rates of the fluid in one loop over its neighbours; each term is explained in its own file."""
+"""Physics: the rates of the fluid in one loop over its neighbours; each term is explained in its own file.
+
+CONTINUITY and MOMENTUM say which of the two equations a specialised loop evaluates: one of them, or both at once.
+"""
 
 import math
 
@@ -12,6 +15,8 @@ __all__ = ["fluid_rates"]
 # parts bound by specialise()
 DIM = 2
 SUPPORT = 3.0  # R/h
+CONTINUITY = True
+MOMENTUM = True
 
 
 def GRADIENT(q):  # type: ignore[no-untyped-def]  # noqa: N802
@@ -21,7 +26,7 @@ def GRADIENT(q):  # type: ignore[no-untyped-def]  # noqa: N802
 def fluid_rates(  # type: ignore[no-untyped-def]
     rows, gradient, lists, fluid_counts, ghost_counts, support, gradient_scale, diffusion, viscosity, gravity, rates
 ):
-    """Write velocity, acceleration and density rate (n, 2 dim + 1) to ``rates``.
+    """Write velocity, acceleration (if MOMENTUM) and density rate (if CONTINUITY), (n, 2 dim + 1), to ``rates``.
 
     ``gradient_scale`` is sigma_d / h^(d+2), ``diffusion`` delta h c0 in m^2/s, ``viscosity`` alpha h c0 rho0 in Pa s,
     ``gravity`` acts downwards along the last axis, m/s^2.
@@ -56,13 +61,15 @@ def fluid_rates(  # type: ignore[no-untyped-def]
                 if DIM == 3:
                     approach += (rows[j, DIM + 2] - rows[i, DIM + 2]) * dz
                     sloped += (gradient[i, 2] + gradient[j, 2]) * dz
-                compression += weight * approach
-                diffused += weight * diffusive_flux(rows[j, 2 * DIM] - density, sloped)
-                stress = weight * pair_stress(pressure + rows[j, 2 * DIM + 1], viscosity, approach, r2)
-                fx += stress * dx
-                fy += stress * dy
-                if DIM == 3:
-                    fz += stress * dz
+                if CONTINUITY:
+                    compression += weight * approach
+                    diffused += weight * diffusive_flux(rows[j, 2 * DIM] - density, sloped)
+                if MOMENTUM:
+                    stress = weight * pair_stress(pressure + rows[j, 2 * DIM + 1], viscosity, approach, r2)
+                    fx += stress * dx
+                    fy += stress * dy
+                    if DIM == 3:
+                        fz += stress * dz
         for k in range(fluid, fluid + ghost_counts[i]):
             j = lists[i, k]
             dx = rows[j, 0] - x
@@ -76,18 +83,23 @@ def fluid_rates(  # type: ignore[no-untyped-def]
                 approach = (rows[j, DIM] - u) * dx + (rows[j, DIM + 1] - v) * dy
                 if DIM == 3:
                     approach += (rows[j, DIM + 2] - rows[i, DIM + 2]) * dz
-                compression += weight * approach
-                stress = weight * pair_stress(pressure + rows[j, 2 * DIM + 1], viscosity, approach, r2)
-                fx += stress * dx
-                fy += stress * dy
-                if DIM == 3:
-                    fz += stress * dz
+                if CONTINUITY:
+                    compression += weight * approach
+                if MOMENTUM:
+                    stress = weight * pair_stress(pressure + rows[j, 2 * DIM + 1], viscosity, approach, r2)
+                    fx += stress * dx
+                    fy += stress * dy
+                    if DIM == 3:
+                        fz += stress * dz
         rates[i, 0] = u
         rates[i, 1] = v
-        rates[i, DIM] = fx / density
-        rates[i, DIM + 1] = fy / density
         if DIM == 3:
             rates[i, 2] = rows[i, DIM + 2]
-            rates[i, DIM + 2] = fz / density
-        rates[i, 2 * DIM - 1] -= gravity
-        rates[i, 2 * DIM] = diffusion * diffused - density * compression
+        if MOMENTUM:
+            rates[i, DIM] = fx / density
+            rates[i, DIM + 1] = fy / density
+            if DIM == 3:
+                rates[i, DIM + 2] = fz / density
+            rates[i, 2 * DIM - 1] -= gravity
+        if CONTINUITY:
+            rates[i, 2 * DIM] = diffusion * diffused - density * compression

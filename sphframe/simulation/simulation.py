@@ -204,6 +204,7 @@ class Simulation:
         rows, n = self.system.rows, self.fluid_count
         order = self.lists.sort(rows)
         rows[:n] = rows[:n][order]
+        self.system.rates[:] = self.system.rates[order]
         self._ids = self._ids[order]
         self.lists.build(rows, self.boundary.points)
         self._reference[:] = rows[:n, self.columns.position]

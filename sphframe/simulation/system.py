@@ -3,6 +3,8 @@
 The order of things within one evaluation reads from top to bottom in :meth:`FluidSystem.evaluate`.
 """
 
+from typing import Any
+
 import numba
 import numpy as np
 from numpy.typing import NDArray
@@ -94,15 +96,35 @@ class FluidSystem(System):
             update_pressure, {"DIM": dim, "PRESSURE": compile_part(equation_of_state.pressure_function())}
         )
         self._density_gradient = specialise(density_gradient, {**parts, "GRADIENT": kernel.gradient})
-        self._fluid_rates = specialise(fluid_rates, {**parts, "GRADIENT": kernel.gradient})
+        self._all_rates, self._density_rates, self._accelerations = (
+            specialise(fluid_rates, {**parts, "GRADIENT": kernel.gradient, "CONTINUITY": c, "MOMENTUM": m})
+            for c, m in ((True, True), (True, False), (False, True))
+        )
         self._wall_reaction = specialise(wall_reaction, {**parts, "GRADIENT": kernel.gradient})
 
     def evaluate(self, time: float) -> None:
-        """Compute the rates of the present state at ``time``."""
+        """Compute all rates of the present state at ``time``."""
         self.move_walls(time)
         self.update_pressure()
         self.fill_ghosts()
-        self.find_rates()
+        self.find_density_gradient()
+        self._find_rates(self._all_rates)
+        self.find_body_rates(time)
+
+    def evaluate_density(self, time: float) -> None:
+        """Compute the density rates of the present state at ``time``."""
+        self.move_walls(time)
+        self.update_pressure()
+        self.fill_ghosts()
+        self.find_density_gradient()
+        self._find_rates(self._density_rates)
+
+    def evaluate_acceleration(self, time: float) -> None:
+        """Compute the accelerations of the present state at ``time``."""
+        self.move_walls(time)
+        self.update_pressure()
+        self.fill_ghosts()
+        self._find_rates(self._accelerations)
         self.find_body_rates(time)
 
     def move_walls(self, time: float) -> None:
@@ -127,11 +149,14 @@ class FluidSystem(System):
             sound_speed=p.sound_speed,
         )
 
-    def find_rates(self) -> None:
-        """Renormalised density gradient, then all rates of the fluid."""
+    def find_density_gradient(self) -> None:
+        """Renormalised density gradient of the fluid."""
         p, lists = self.parameters, self.lists
         self._density_gradient(self.rows, lists.fluid, lists.fluid_counts, p.support, p.gradient_scale, self.gradient)
-        self._fluid_rates(
+
+    def _find_rates(self, loop: Any) -> None:
+        p, lists = self.parameters, self.lists
+        loop(
             self.rows, self.gradient, lists.fluid, lists.fluid_counts, lists.ghost_counts, p.support,
             p.gradient_scale, p.diffusion, p.viscosity, p.gravity, self.rates,
         )  # fmt: skip
@@ -192,12 +217,19 @@ class FluidSystem(System):
         if len(self.body_position):
             self._set_bodies(self._body_start + interval * self._body_total)
 
-    def centre_positions(self, interval: float) -> None:
-        """x = x0 + interval * (u0 + u) / 2."""
-        _centre_positions(self.rows, self._start, self.parameters.dim, interval)
-        if len(self.body_position):
-            middle = 0.5 * (self._body_start[1] + self.body_velocity)
-            self.body_position[:] = self._body_start[0] + interval * middle
+    def drift(self, interval: float) -> None:
+        """x = x + interval * u."""
+        _drift(self.rows, self.fluid_count, self.parameters.dim, interval)
+        self.body_position += interval * self.body_velocity
+
+    def kick(self, interval: float) -> None:
+        """u = u + interval * acceleration."""
+        _kick(self.rows, self.rates, self.parameters.dim, interval)
+        self.body_velocity += interval * self._body_rates[1]
+
+    def update_density(self, interval: float) -> None:
+        """rho = rho + interval * density rate."""
+        _update_density(self.rows, self.rates, self.parameters.dim, interval)
 
     def _set_bodies(self, state: Array) -> None:
         self.body_position[:], self.body_velocity[:] = state
@@ -225,7 +257,20 @@ def _accumulate(total, rates, weight):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(parallel=True, cache=True)
-def _centre_positions(rows, start, dim, interval):  # type: ignore[no-untyped-def]
-    for i in numba.prange(start.shape[0]):
+def _drift(rows, count, dim, interval):  # type: ignore[no-untyped-def]
+    for i in numba.prange(count):
         for k in range(dim):
-            rows[i, k] = start[i, k] + interval * 0.5 * (start[i, dim + k] + rows[i, dim + k])
+            rows[i, k] += interval * rows[i, dim + k]
+
+
+@numba.njit(parallel=True, cache=True)
+def _kick(rows, rates, dim, interval):  # type: ignore[no-untyped-def]
+    for i in numba.prange(rates.shape[0]):
+        for k in range(dim, 2 * dim):
+            rows[i, k] += interval * rates[i, k]
+
+
+@numba.njit(parallel=True, cache=True)
+def _update_density(rows, rates, dim, interval):  # type: ignore[no-untyped-def]
+    for i in numba.prange(rates.shape[0]):
+        rows[i, 2 * dim] += interval * rates[i, 2 * dim]
