@@ -29,7 +29,7 @@ class Symplectic(Integrator):
     order: ClassVar[int] = 2
     evaluations: ClassVar[int] = 1
     stability_limit: ClassVar[float] = 2.33
-    courant_number: ClassVar[float] = 1.0
+    courant_number: ClassVar[float] = 0.7
 
     def step(self, system: System, time: float, time_step: float) -> None:
         """Advance one step."""
