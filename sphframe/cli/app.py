@@ -1,0 +1,167 @@
+"""CLI: the commands, and how errors leave them.
+
+What a command needs is imported inside it, so that ``sphframe --help`` answers at once.
+"""
+
+import os
+import sys
+import warnings
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.text import Text
+from typer.core import TyperGroup
+
+import sphframe
+from sphframe.errors import SphframeError
+
+__all__ = ["app", "main"]
+
+WELCOME = """\
+sphframe {version}: a laboratory for wall boundaries in SPH free-surface flow
+
+  sphframe run dam-break        simulate a case (about a minute)
+  sphframe list                 what is installed: cases, interpolation methods, ...
+  sphframe show dam-break       a case's parameters, units, defaults and presets
+  sphframe new-plugin           start a boundary interpolation method of your own
+  sphframe verify METHOD        test a method against what it promises
+  sphframe doctor               check this installation
+
+sphframe COMMAND --help explains a command."""
+
+
+class _Commands(TyperGroup):
+    """Ends every command with one clear message and an exit code, never with a traceback."""
+
+    def invoke(self, ctx: Any) -> Any:
+        with warnings.catch_warnings():
+            warnings.showwarning = _print_warning  # type: ignore[assignment]
+            try:
+                return super().invoke(ctx)
+            except (SphframeError, KeyboardInterrupt, MemoryError, OSError) as error:
+                if os.environ.get("SPHFRAME_DEBUG") == "1":
+                    raise
+                raise typer.Exit(_ended_by(error)) from None
+            except (typer.Exit, typer.Abort, typer.TyperException):
+                raise
+            except Exception as error:
+                if os.environ.get("SPHFRAME_DEBUG") == "1":
+                    raise
+                _print_error(
+                    f"{type(error).__name__}: {error}\nthis is not a mistake of yours but a defect of sphframe or of a"
+                    " plugin; set SPHFRAME_DEBUG=1 to see where it comes from, and please report it"
+                )
+                raise typer.Exit(1) from None
+
+
+app = typer.Typer(
+    name="sphframe",
+    cls=_Commands,
+    help="A laboratory for wall boundaries in SPH free-surface flow.",
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+Kind = Annotated[str | None, typer.Argument(help="interpolators, kernels, cases, ...; all by default")]
+Preset = Annotated[str | None, typer.Option(metavar="NAME", help="one of the case's presets, such as paper")]
+
+
+def main() -> None:
+    """Run the command line; raises SystemExit with 0, 1 (a defect), 2 (input, files), 3 (a run gone wrong) or 130."""
+    app()
+
+
+@app.callback(invoke_without_command=True)
+def _welcome(
+    context: typer.Context,
+    version: Annotated[bool, typer.Option("--version", help="print the version and exit")] = False,
+) -> None:
+    if version:
+        print(sphframe.__version__)
+        raise typer.Exit
+    if context.invoked_subcommand is None:
+        print(WELCOME.format(version=sphframe.__version__))
+
+
+@app.command("run")
+def _run(
+    case: Annotated[str, typer.Argument(help="a case's name, a TOML case file, or an output file (.nc) to repeat")],
+    preset: Preset = None,
+    interpolator: Annotated[str | None, typer.Option(metavar="NAME", help="boundary interpolation method")] = None,
+    assignments: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="a parameter, such as particle_spacing=0.01; repeatable"),
+    ] = None,
+    until: Annotated[float | None, typer.Option(metavar="SECONDS", help="simulated time at which to stop")] = None,
+    threads: Annotated[int | None, typer.Option(help="threads; by default all cores")] = None,
+    output: Annotated[Path | None, typer.Option(metavar="FILE", help="by default CASE.nc in this folder")] = None,
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="replace files of an earlier run")] = False,
+) -> None:
+    """Simulate a case, and write CASE.nc and a picture."""
+    from sphframe.cli.run import run_command
+    from sphframe.cli.values import read_assignments
+
+    overrides = read_assignments(assignments or [], {"interpolator": interpolator, "until": until})
+    run_command(case, preset=preset, overrides=overrides, threads=threads, output=output, overwrite=overwrite)
+
+
+@app.command("list")
+def _list(kind: Kind = None) -> None:
+    """List what is installed, without loading it."""
+    from sphframe.cli.show import list_command
+
+    list_command(kind)
+
+
+@app.command("show")
+def _show(
+    name: Annotated[str, typer.Argument(help="a case, a case file, an output file, or any component")],
+    preset: Preset = None,
+) -> None:
+    """Show a case's parameters, units, defaults and presets, or a component's options."""
+    from sphframe.cli.show import show_command
+
+    show_command(name, preset)
+
+
+@app.command("doctor")
+def _doctor() -> None:
+    """Check this installation: versions, threads, compiler cache, plugins."""
+    from sphframe.cli.doctor import doctor_command
+
+    doctor_command()
+
+
+def _ended_by(error: BaseException) -> int:
+    """Print what ended a command; return its exit code."""
+    if isinstance(error, SphframeError):
+        _print_error(str(error))
+        return error.exit_code
+    if isinstance(error, KeyboardInterrupt):
+        _print_error("interrupted")
+        return 130
+    if isinstance(error, BrokenPipeError):  # the reader of a pipe, such as head, has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    if isinstance(error, MemoryError):
+        _print_error("not enough memory; choose a larger particle_spacing, or fewer threads")
+        return 2
+    _print_error(str(error))
+    return 2
+
+
+def _print_error(message: str) -> None:
+    first, *rest = message.splitlines() or [""]
+    console = Console(stderr=True, highlight=False, soft_wrap=True)
+    console.print(Text.assemble(("error: ", "bold red"), first))
+    for line in rest:
+        console.print(Text(line))
+
+
+def _print_warning(message: Warning | str, category: type[Warning], *_: Any) -> None:
+    Console(stderr=True, highlight=False, soft_wrap=True).print(
+        Text.assemble(("warning: ", "bold yellow"), " ".join(str(message).split()))
+    )

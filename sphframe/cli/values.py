@@ -1,0 +1,43 @@
+"""CLI: parameters given as text."""
+
+import tomllib
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from sphframe.errors import InputError
+
+__all__ = ["read_assignments"]
+
+
+def read_assignments(assignments: Iterable[str], options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the parameters of ``KEY=VALUE`` texts and of options of the same names (None: not given).
+
+    A value is read as TOML (0.01, true, "text", [1, 2], {name = "sfdi"}) and, where it is not, as a text.
+
+    Raises
+    ------
+    InputError: when a text is not an assignment, or a parameter is given twice.
+
+    Examples
+    --------
+    >>> read_assignments(["particle_spacing=0.01", "interpolator.form=printed"], {"interpolator": "sfdi"})
+    {'interpolator': 'sfdi', 'particle_spacing': 0.01, 'interpolator.form': 'printed'}
+    """
+    parameters = {name: value for name, value in options.items() if value is not None}
+    for text in assignments:
+        key, equals, value = text.partition("=")
+        key = key.strip()
+        if not equals or not all(key.split(".")):
+            raise InputError(f"--set {text}: give it as KEY=VALUE, such as --set particle_spacing=0.01")
+        if key in parameters:
+            raise InputError(f"{key} is given twice; give it once")
+        parameters[key] = _value(value.strip())
+    return parameters
+
+
+def _value(text: str) -> Any:
+    try:
+        table = tomllib.loads(f"value = {text}")
+    except (tomllib.TOMLDecodeError, RecursionError):
+        return text
+    return table["value"] if set(table) == {"value"} else text
