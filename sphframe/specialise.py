@@ -52,7 +52,11 @@ def compile_part(function: Callable[..., Any]) -> Any:
         return function
     key = fingerprint(function)
     if key not in _parts:
-        _parts[key] = numba.njit(error_model="numpy", fastmath={"contract"})(function)
+        # Numba tells machine code apart by qualified name and a counter that starts anew in every process. Without the
+        # hash, a loop from the disk cache may bring a namesake with other closure values, which then runs instead.
+        copy = _rebind(function, {})
+        copy.__qualname__ = f"{function.__qualname__}_{key}"
+        _parts[key] = numba.njit(error_model="numpy", fastmath={"contract"})(copy)
     return _parts[key]
 
 
