@@ -1,0 +1,56 @@
+"""Testing: the verification suite that plugin authors import.
+
+A conformance test is a few lines::
+
+    from sphframe.testing import parametrize_with_checks
+
+    @parametrize_with_checks([MyMethod(), MyMethod(order=2)])
+    def test_keeps_its_promises(method, check):
+        check(method)
+
+The names below are loaded on first use; importing this package compiles nothing.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from sphframe.testing.clouds import FAMILIES, Cloud, catalogue
+    from sphframe.testing.evaluation import Outcome, evaluate
+    from sphframe.testing.proof import BrokenPromiseError
+    from sphframe.testing.strategies import clouds
+    from sphframe.testing.suite import Check, checks_of, parametrize_with_checks
+    from sphframe.testing.verification import Report, verify
+
+_HOMES = {
+    "sphframe.testing.clouds": ["FAMILIES", "Cloud", "catalogue"],
+    "sphframe.testing.evaluation": ["Outcome", "evaluate"],
+    "sphframe.testing.proof": ["BrokenPromiseError"],
+    "sphframe.testing.strategies": ["clouds"],
+    "sphframe.testing.suite": ["Check", "checks_of", "parametrize_with_checks"],
+    "sphframe.testing.verification": ["Report", "verify"],
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = [
+    "FAMILIES",
+    "BrokenPromiseError",
+    "Check",
+    "Cloud",
+    "Outcome",
+    "Report",
+    "catalogue",
+    "checks_of",
+    "clouds",
+    "evaluate",
+    "parametrize_with_checks",
+    "verify",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOME_OF:
+        value = getattr(import_module(_HOME_OF[name]), name)
+        globals()[name] = value
+        return value
+    raise AttributeError(f"module 'sphframe.testing' has no attribute {name!r}")

@@ -1,0 +1,316 @@
+"""Testing: neighbourhoods of one evaluation point, built and never filtered.
+
+Each family is a recipe for one kind of trouble: a wall on one side, a thin sheet, spray, points on one line, points
+that coincide, points at the cut-off. Lengths are in particle spacings here; a cloud may be scaled to any spacing.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["ALL", "FAMILIES", "REGULAR", "SPARSE", "Cloud", "build", "catalogue", "condition"]
+
+Array = NDArray[np.float64]
+Recipe = Callable[[np.random.Generator, int, float], tuple[Array, Array]]
+
+
+@dataclass(frozen=True, eq=False)
+class Cloud:
+    """The particles around one evaluation point.
+
+    Attributes
+    ----------
+    offsets: (n, dim), m: from the evaluation point, each shorter than ``support``.
+    volumes: (n,), m^dim.
+    support: cut-off radius R, m.
+    lift: (dim,), m: from the evaluation point to the ghost, for methods that extrapolate.
+    """
+
+    offsets: Array
+    volumes: Array
+    support: float
+    lift: Array
+
+    def __init__(
+        self,
+        offsets: Sequence[Sequence[float]] | Array,
+        volumes: Sequence[float] | Array,
+        support: float,
+        lift: Sequence[float] | Array | None = None,
+    ) -> None:
+        object.__setattr__(self, "offsets", np.array(offsets, dtype=np.float64, order="C"))
+        object.__setattr__(self, "volumes", np.array(volumes, dtype=np.float64))
+        object.__setattr__(self, "support", float(support))
+        dim = self.offsets.shape[1]
+        object.__setattr__(self, "lift", np.zeros(dim) if lift is None else np.array(lift, dtype=np.float64))
+
+    @property
+    def dim(self) -> int:
+        """2 or 3."""
+        return self.offsets.shape[1]
+
+    @property
+    def distances(self) -> Array:
+        """(n,): lengths of the offsets, m."""
+        lengths: Array = np.sqrt(np.sum(self.offsets**2, axis=1))
+        return lengths
+
+    def __len__(self) -> int:
+        return len(self.volumes)
+
+    def __repr__(self) -> str:
+        """The cloud as code."""
+        lift = f", lift={self.lift.tolist()}" if np.any(self.lift) else ""
+        return f"Cloud({self.offsets.tolist()}, volumes={self.volumes.tolist()}, support={self.support!r}{lift})"
+
+    def changed(
+        self,
+        offsets: Array | None = None,
+        volumes: Array | None = None,
+        lift: Array | None = None,
+    ) -> "Cloud":
+        """Return a copy with some parts replaced."""
+        return Cloud(
+            self.offsets if offsets is None else offsets,
+            self.volumes if volumes is None else volumes,
+            self.support,
+            self.lift if lift is None else lift,
+        )
+
+    def members(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> "Cloud":
+        """Return the cloud of the particles in ``index`` alone, in that order."""
+        return self.changed(self.offsets[index], self.volumes[index])
+
+    def scaled(self, factor: float) -> "Cloud":
+        """Return the cloud with all lengths multiplied by ``factor``."""
+        return Cloud(
+            self.offsets * factor, self.volumes * factor**self.dim, self.support * factor, self.lift * factor
+        ).clear_of_cut_off(0.0)
+
+    def clear_of_cut_off(self, margin: float) -> "Cloud":
+        """Return the cloud without the particles beyond (1 - margin) R; the nearest one always stays."""
+        r = self.distances
+        keep = r < (1.0 - margin) * self.support
+        if not keep.any():
+            keep[np.argmin(r)] = True
+        return self.members(keep)
+
+
+def _ball(rng: np.random.Generator, dim: int, radius: float, jitter: float = 0.25) -> Array:
+    """A jittered lattice around a random evaluation point, in a random orientation."""
+    reach = int(radius) + 2
+    axes = np.meshgrid(*[np.arange(-reach, reach + 1.0)] * dim, indexing="ij")
+    lattice = np.stack(axes, axis=-1).reshape(-1, dim)
+    points = lattice + rng.uniform(-0.5, 0.5, dim) + rng.uniform(-jitter, jitter, lattice.shape)
+    return points @ _rotation(rng, dim).T
+
+
+def _rotation(rng: np.random.Generator, dim: int) -> Array:
+    rotation: Array = np.linalg.qr(rng.normal(size=(dim, dim)))[0]
+    return rotation
+
+
+def _direction(rng: np.random.Generator, dim: int) -> Array:
+    return _rotation(rng, dim)[0]
+
+
+def _even(rng: np.random.Generator, points: Array) -> tuple[Array, Array]:
+    """Volumes of a nearly even distribution."""
+    return points, rng.uniform(0.8, 1.2, len(points))
+
+
+def _full_support(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    return _even(rng, _ball(rng, dim, radius))
+
+
+def _one_sided(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    points = _ball(rng, dim, radius)
+    return _even(rng, points[points @ _direction(rng, dim) > -rng.uniform(0.0, 1.0)])
+
+
+def _corner(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    points = _ball(rng, dim, radius)
+    return _even(rng, points[np.all(points > -rng.uniform(0.2, 1.0, dim), axis=1)])
+
+
+def _thin_sheet(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    points = _ball(rng, dim, radius)
+    heights = points @ _direction(rng, dim)
+    return _even(rng, points[np.abs(heights - rng.uniform(-1.0, 1.0)) < rng.uniform(0.5, 1.2)])
+
+
+def _spray(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    return _drops(rng, dim, radius, int(rng.integers(1, 7)))
+
+
+def _drops(rng: np.random.Generator, dim: int, radius: float, count: int) -> tuple[Array, Array]:
+    directions = rng.normal(size=(count, dim))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    return _even(rng, directions * rng.uniform(0.1, 0.95, (count, 1)) * radius)
+
+
+def _collinear(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    count = int(rng.integers(2, 10))
+    inside = int(rng.integers(1, dim))  # a line, or in 3-D a plane
+    points = np.zeros((count, dim))
+    points[:, :inside] = rng.uniform(-0.6, 0.6, (count, inside)) * radius
+    if rng.random() < 0.5:
+        points[:, -1] = rng.uniform(0.1, 0.5) * radius
+    if rng.random() < 0.7:  # otherwise along an axis
+        points = points @ _rotation(rng, dim).T
+    return _even(rng, points)
+
+
+def _conic(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    directions = rng.normal(size=(int(rng.integers(6, 15)), dim))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    axes = rng.uniform(0.2, 0.6, dim) * radius
+    return _even(rng, (directions * axes) @ _rotation(rng, dim).T + rng.uniform(-0.1, 0.1, dim) * radius)
+
+
+def _coincident(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    points = _at_particle(rng, dim, radius)[0] if rng.random() < 0.5 else _ball(rng, dim, radius)
+    nearest = np.argsort(np.sum(points**2, axis=1))[: int(rng.integers(1, 4))]
+    if rng.random() < 0.3:  # nothing else
+        points = points[nearest]
+        nearest = np.arange(len(points))
+    return _even(rng, np.concatenate([points, points[nearest]]))
+
+
+def _nearly_coincident(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    points = _at_particle(rng, dim, radius)[0]
+    copies = points[np.argsort(np.sum(points**2, axis=1))[:3]]
+    gaps = 10.0 ** rng.uniform(-14.0, -3.0, (3, 1)) * rng.normal(size=copies.shape)
+    return _even(rng, np.concatenate([points, copies + gaps]))
+
+
+def _at_particle(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    points = _ball(rng, dim, radius)
+    return _even(rng, points - points[np.argmin(np.sum(points**2, axis=1))])
+
+
+def _lattice(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    reach = int(radius) + 2
+    axes = np.meshgrid(*[np.arange(-reach, reach + 1.0)] * dim, indexing="ij")
+    points = np.stack(axes, axis=-1).reshape(-1, dim) + 0.5 * rng.integers(0, 2, dim)
+    return points, np.ones(len(points))
+
+
+def _at_cut_off(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    count = int(rng.integers(1, 5))
+    directions = rng.normal(size=(count, dim))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    gaps = rng.choice([1e-3, 1e-4, 1e-9, 1e-12, 3e-16], (count, 1))
+    points = directions * (radius * (1.0 - gaps))
+    if rng.random() < 0.3:
+        points = np.concatenate([points, _ball(rng, dim, radius)])
+    return _even(rng, points)
+
+
+def _varied_volumes(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    points = _ball(rng, dim, radius)
+    return points, 10.0 ** rng.uniform(-2.0, 2.0, len(points))
+
+
+FAMILIES: dict[str, Recipe] = {
+    "full support": _full_support,
+    "one-sided": _one_sided,
+    "corner": _corner,
+    "thin sheet": _thin_sheet,
+    "spray": _spray,
+    "collinear": _collinear,
+    "conic": _conic,
+    "coincident": _coincident,
+    "nearly coincident": _nearly_coincident,
+    "at a particle": _at_particle,
+    "lattice": _lattice,
+    "at the cut-off": _at_cut_off,
+    "varied volumes": _varied_volumes,
+}
+"""recipes by name, each (rng, dim, radius in spacings) -> offsets and volumes in spacings, beyond the radius too"""
+
+ALL = tuple(FAMILIES)
+REGULAR = ("full support", "one-sided", "corner", "varied volumes")
+"""well-conditioned, for every method that ships"""
+SPARSE = (*REGULAR, "thin sheet", "spray", "at a particle")
+"""also hard, but without points that nearly coincide or lie at the very cut-off"""
+
+
+def build(family: str, dim: int, seed: int, *, spacing: float = 1.0, ratio: float = 1.3, lifted: bool = False) -> Cloud:
+    """Build one cloud.
+
+    Parameters
+    ----------
+    family: a key of :data:`FAMILIES`.
+    dim: 2 or 3.
+    seed: of the random numbers.
+    spacing: particle spacing, m.
+    ratio: a third of the cut-off radius over the spacing, the h/dx of a kernel with R = 3h.
+    lifted: whether the ghost lies away from the evaluation point.
+    """
+    rng = np.random.default_rng(seed)
+    radius = 3.0 * ratio
+    return _cut(*FAMILIES[family](rng, dim, radius), radius, rng, lifted).scaled(spacing)
+
+
+def _cut(points: Array, volumes: Array, radius: float, rng: np.random.Generator, lifted: bool) -> Cloud:
+    inside = np.sqrt(np.sum(points**2, axis=1)) < radius
+    if not inside.any():  # a recipe may leave the ball empty; a method is never given an empty one
+        points, volumes = 0.5 * radius * _direction(rng, points.shape[1])[None, :], np.ones(1)
+        inside = np.ones(1, dtype=np.bool_)
+    lift = rng.uniform(0.0, 3.0) * _direction(rng, points.shape[1]) if lifted else None
+    return Cloud(points[inside], volumes[inside], radius, lift)
+
+
+@lru_cache(maxsize=64)
+def catalogue(dim: int, families: tuple[str, ...] = ALL, *, lifted: bool = False) -> tuple[Cloud, ...]:
+    """Return the fixed clouds that every check begins with: five of each family, and spray of 1 to 6 drops."""
+    ratio = 1.3 if dim == 2 else 1.0
+    found = [build(family, dim, seed, ratio=ratio, lifted=lifted) for family in families for seed in range(5)]
+    if "spray" in families:
+        for count in range(1, 7):
+            for seed in range(3):
+                rng = np.random.default_rng(100 * count + seed)
+                found.append(_cut(*_drops(rng, dim, 3.0 * ratio, count), 3.0 * ratio, rng, lifted))
+    return tuple(found)
+
+
+def condition(cloud: Cloud, degree: int) -> float:
+    """Return how many times the geometry magnifies round-off in a method of the given degree.
+
+    It is the largest condition number of the moment matrices, columns scaled, of the polynomial basis with unit and
+    with Gaussian weights about the evaluation point and, without the constant, about the nearest particle; infinite
+    where the cloud does not determine the polynomial. Degree 0 gives 1.
+    """
+    if degree == 0:
+        return 1.0
+    x = cloud.offsets / cloud.support
+    columns = [*x.T, np.ones(len(x))]
+    if degree == 2:
+        columns += [x[:, a] * x[:, b] for a in range(cloud.dim) for b in range(a + 1)]
+    basis = np.column_stack(columns)
+    weights = _gaussian(np.sum(x**2, axis=1)) * cloud.volumes / cloud.volumes.max()
+    worst = max(_squared(basis), _squared(basis * np.sqrt(weights)[:, None]))
+    about = x - x[np.argmin(cloud.distances)]
+    squares = np.sum(about**2, axis=1)
+    away = squares > 0.0
+    return max(worst, _squared(about[away] * np.sqrt(_gaussian(squares[away]) / squares[away])[:, None]))
+
+
+def _gaussian(squares: Array) -> Array:
+    """The Gaussian cut off at r = R = 3h, of (r/R)^2."""
+    values: Array = np.maximum(np.exp(-9.0 * squares) - np.exp(-9.0), 0.0)
+    return values
+
+
+def _squared(basis: Array) -> float:
+    if basis.shape[0] < basis.shape[1]:
+        return np.inf
+    lengths = np.sqrt(np.sum(basis**2, axis=0))
+    if not lengths.all():
+        return np.inf
+    values = np.linalg.svd(basis / lengths, compute_uv=False)
+    return float((values[0] / values[-1]) ** 2) if values[-1] > 0.0 else np.inf

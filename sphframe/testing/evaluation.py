@@ -1,0 +1,100 @@
+"""Testing: the weights of a method on one cloud, by the compiled loop that :func:`operator` uses."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sphframe.boundary.operator import weights_loop
+from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint, Kernel
+from sphframe.registry import create
+from sphframe.testing.clouds import Cloud
+
+__all__ = ["Evaluate", "Outcome", "evaluate", "evaluator", "extrapolates", "plain_evaluator", "title"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a method answered: its weights (n,), after the fallback where the status is not OK, and the status."""
+
+    weights: Array
+    status: int
+
+    @property
+    def magnitude(self) -> float:
+        """sum_j |Phi_j|, at least 1."""
+        return max(1.0, float(np.sum(np.abs(self.weights))))
+
+
+Evaluate = Callable[[Cloud], Outcome]
+
+
+def evaluate(method: BoundaryInterpolator, cloud: Cloud, kernel: str | Kernel = "gaussian") -> Outcome:
+    """Return the weights of ``method`` on ``cloud``, and its status.
+
+    Examples
+    --------
+    >>> from sphframe import create
+    >>> from sphframe.testing import Cloud, evaluate
+    >>> cloud = Cloud([[0.0, 1.0], [0.0, -1.0], [1.0, 0.0]], volumes=[1.0, 1.0, 2.0], support=3.0)
+    >>> evaluate(create("interpolators", "normalized"), cloud).weights.tolist()
+    [0.25, 0.25, 0.5]
+    """
+    return evaluator(method, cloud.dim, kernel)(cloud)
+
+
+def evaluator(
+    method: BoundaryInterpolator, dim: int, kernel: str | Kernel = "gaussian", *, garbage: float = np.nan
+) -> Evaluate:
+    """Return the function that evaluates ``method`` on clouds of ``dim`` dimensions, given ``out`` full of garbage."""
+    chosen = create("kernels", kernel) if isinstance(kernel, str) else kernel
+    loop = weights_loop(method, chosen, dim)
+    normalisation = chosen.normalisation(dim)
+
+    def run(cloud: Cloud) -> Outcome:
+        n = len(cloud)
+        out = np.full(n, garbage)
+        statuses = np.empty(1, dtype=np.int64)
+        loop(
+            cloud.offsets, cloud.volumes, np.zeros((1, dim)), cloud.lift[None, :], np.array([0, n]), np.arange(n),
+            cloud.support, normalisation / (cloud.support / chosen.support) ** dim,
+            np.empty((n, dim)), np.empty(n), np.empty(n), np.empty(n), out, statuses,
+        )  # fmt: skip
+        return Outcome(out, int(statuses[0]))
+
+    return run
+
+
+def plain_evaluator(method: BoundaryInterpolator, dim: int, kernel: str = "gaussian") -> Evaluate:
+    """Return the same as :func:`evaluator`, run by the Python interpreter; weights of a point not OK are not filled."""
+    chosen = create("kernels", kernel)
+    value = chosen.value_function()
+    functions = CompiledKernel(value, chosen.gradient_function(), chosen.support, chosen.normalisation(dim))
+    weights = method.point_weights(functions, dim)
+
+    def run(cloud: Cloud) -> Outcome:
+        h = cloud.support / chosen.support
+        values = np.array([functions.normalisation / h**dim * value(r / h) for r in cloud.distances])
+        out = np.full(len(cloud), np.nan)
+        with np.errstate(all="ignore"):
+            status = weights(
+                cloud.offsets, cloud.distances, values, cloud.volumes, cloud.support, cloud.lift, out
+            )  # fmt: skip
+        return Outcome(out, int(status))
+
+    return run
+
+
+def extrapolates(method: BoundaryInterpolator) -> bool:
+    """Whether the method is given a lift."""
+    return method.traits.evaluation_point is EvaluationPoint.EXTRAPOLATED
+
+
+def title(component: Any) -> str:
+    """The component as code, shortened: what the messages call it."""
+    text = repr(component)
+    return f"{type(component).__name__}()" if text.startswith("<") else text

@@ -1,0 +1,119 @@
+"""Testing: the search for a cloud that breaks a promise, and the smallest one like it.
+
+A property is a function that looks at one cloud and returns what is wrong with it, or None. It is tried on the fixed
+catalogue, then on clouds that hypothesis draws; of a cloud that breaks it, particles are removed and numbers rounded
+for as long as it still does.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from hypothesis import HealthCheck, Phase, given, settings
+
+from sphframe.interfaces import BoundaryInterpolator
+from sphframe.testing.clouds import ALL, Cloud, catalogue
+from sphframe.testing.evaluation import extrapolates, title
+from sphframe.testing.strategies import clouds
+
+__all__ = ["BrokenPromiseError", "Property", "prove", "smallest"]
+
+Property = Callable[[Cloud], str | None]
+
+
+class BrokenPromiseError(AssertionError):
+    """When a component breaks a promise; the message says which, how, and on what."""
+
+
+@dataclass
+class _FoundError(Exception):
+    cloud: Cloud
+
+
+def prove(
+    method: BoundaryInterpolator,
+    dim: int,
+    promise: str,
+    wrong_with: Property,
+    families: tuple[str, ...] = ALL,
+) -> None:
+    """Search for a cloud of ``families`` for which ``wrong_with`` returns a complaint.
+
+    Raises
+    ------
+    BrokenPromiseError: when there is one, with the complaint about the smallest such cloud, and the cloud as code.
+    """
+    lifted = extrapolates(method)
+    for cloud in catalogue(dim, families, lifted=lifted):
+        if wrong_with(cloud) is not None:
+            raise _failure(method, dim, promise, wrong_with, cloud) from None
+
+    # the catalogue has done most of the work: a quarter of the examples of the profile in force
+    default = settings.default.max_examples if settings.default else 100
+
+    # no shrinking: seeds do not shrink to small clouds, smallest() does
+    @settings(
+        max_examples=max(10, default // 4),
+        deadline=None,
+        phases=(Phase.explicit, Phase.generate),
+        database=None,
+        report_multiple_bugs=False,
+        suppress_health_check=list(HealthCheck),
+    )
+    @given(clouds(dim, families, lifted=lifted, largest=1.4 if dim == 2 else 1.1))
+    def search(cloud: Cloud) -> None:
+        if wrong_with(cloud) is not None:
+            raise _FoundError(cloud)
+
+    try:
+        search()
+    except _FoundError as found:
+        raise _failure(method, dim, promise, wrong_with, found.cloud) from None
+
+
+def smallest(cloud: Cloud, wrong_with: Property) -> Cloud:
+    """Return the cloud with fewer particles and rounder numbers for which ``wrong_with`` still complains."""
+
+    def attempt(candidate: Cloud) -> bool:
+        nonlocal cloud
+        valid = len(candidate) > 0 and bool(np.all(candidate.distances < candidate.support))
+        if valid and wrong_with(candidate) is not None:
+            cloud = candidate
+            return True
+        return False
+
+    size = max(1, len(cloud) // 2)
+    while size >= 1:  # remove half, a quarter, ... one, for as long as something can be removed
+        removed = False
+        first = 0
+        while first < len(cloud) and len(cloud) > 1:
+            index = np.arange(len(cloud))
+            if attempt(cloud.members(index[(index < first) | (index >= first + size)])):
+                removed = True
+            else:
+                first += size
+        if not removed:
+            size //= 2
+    attempt(cloud.scaled(3.0 / cloud.support))
+    attempt(cloud.changed(volumes=np.ones(len(cloud))))
+    attempt(cloud.changed(lift=np.zeros(cloud.dim)))
+    for digits in (0, 1, 2, 3, 6):
+        if attempt(cloud.changed(np.round(cloud.offsets, digits) + 0.0)):
+            break
+    for digits in (1, 2, 3):
+        if attempt(cloud.changed(lift=np.round(cloud.lift, digits) + 0.0)):
+            break
+    return cloud
+
+
+def _failure(
+    method: BoundaryInterpolator, dim: int, promise: str, wrong_with: Property, cloud: Cloud
+) -> BrokenPromiseError:
+    cloud = smallest(cloud, wrong_with)
+    return BrokenPromiseError(
+        f"{title(method)} in {dim}-D: {promise}. {wrong_with(cloud)}.\n"
+        f"The smallest cloud found, as code:\n\n"
+        f"    from sphframe.testing import Cloud, evaluate\n\n"
+        f"    cloud = {cloud!r}\n"
+        f"    print(evaluate(method, cloud))\n"
+    )

@@ -1,0 +1,146 @@
+"""Testing: which checks a component gets, and the pytest decorator that runs them."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sphframe.interfaces import BoundaryInterpolator, Traits
+from sphframe.testing import interpolators as of_methods
+from sphframe.testing.evaluation import title
+
+__all__ = ["Check", "checks_of", "parametrize_with_checks"]
+
+
+@dataclass(frozen=True)
+class Check:
+    """One check of one component: call it with the component; it raises BrokenPromiseError, or returns."""
+
+    name: str
+    function: Callable[..., None]
+    dim: int | None = None
+    """2 or 3 for a check of an interpolation method"""
+    promised: bool = True
+    """whether the component claims the property, by its traits or because all components must have it"""
+    optional: bool = False
+    """whether the property is one of the traits"""
+
+    def __call__(self, component: Any) -> None:
+        """Run the check.
+
+        Raises
+        ------
+        BrokenPromiseError: when the component does not have the property.
+        """
+        if self.dim is None:
+            self.function(component)
+        else:
+            self.function(component, self.dim)
+
+    def __str__(self) -> str:
+        return self.name if self.dim is None else f"{self.name}-{self.dim}d"
+
+
+_TRAITS: dict[str, tuple[Callable[..., None], Callable[[Traits], bool]]] = {
+    "partition_of_unity": (of_methods.check_partition_of_unity, lambda t: t.partition_of_unity),
+    "non_negative": (of_methods.check_non_negative, lambda t: t.non_negative),
+    "range_restricted": (of_methods.check_range_restricted, lambda t: t.range_restricted),
+    "linear_reproduction": (of_methods.check_linear_reproduction, lambda t: t.reproduces_degree >= 1),
+    "quadratic_reproduction": (of_methods.check_quadratic_reproduction, lambda t: t.reproduces_degree >= 2),
+    "interpolates_particles": (of_methods.check_interpolates_particles, lambda t: t.interpolates_particles),
+    "rotation_invariance": (of_methods.check_rotation_invariance, lambda t: t.rotation_invariant),
+    "volume_independence": (of_methods.check_volume_independence, lambda t: t.volume_independent),
+    "continuity": (of_methods.check_continuity, lambda t: t.continuous),
+}
+_ALWAYS: dict[str, Callable[..., None]] = {
+    "traits": of_methods.check_traits,
+    "compiles": of_methods.check_compiles,
+    "honest_status": of_methods.check_honest_status,
+    "fewest_points": of_methods.check_fewest_points,
+    "bounded_weights": of_methods.check_bounded_weights,
+    "reflection_invariance": of_methods.check_reflection_invariance,
+    "permutation_invariance": of_methods.check_permutation_invariance,
+    "translation_invariance": of_methods.check_translation_invariance,
+    "scale_invariance": of_methods.check_scale_invariance,
+    "unit_independence": of_methods.check_unit_independence,
+    "repeatable": of_methods.check_repeatable,
+    "plain_python_agrees": of_methods.check_plain_python_agrees,
+    "solver_agrees": of_methods.check_solver_agrees,
+    "writes_only_out": of_methods.check_writes_only_out,
+    "no_allocation": of_methods.check_no_allocation,
+}
+
+
+def checks_of(component: Any, *, promised_only: bool = True) -> list[Check]:
+    """Return the checks of ``component``, chosen by its interface and its traits.
+
+    Parameters
+    ----------
+    component: an interpolation method, kernel, equation of state, integrator or rigid body.
+    promised_only: leave out the checks of traits that a method does not promise.
+
+    Raises
+    ------
+    TypeError: when it is none of these.
+    """
+    if isinstance(component, BoundaryInterpolator):
+        return _checks_of_method(component, promised_only)
+    from sphframe.testing import others
+
+    return [Check(name, function) for name, function in others.checks_of(component).items()]
+
+
+def _checks_of_method(method: BoundaryInterpolator, promised_only: bool) -> list[Check]:
+    traits = method.traits
+    if not isinstance(traits, Traits):
+        return [Check("traits", of_methods.check_traits, 2)]
+    found = []
+    for dim in (2, 3):
+        found += [Check(name, function, dim) for name, function in _ALWAYS.items()]
+        found += [
+            Check(name, function, dim, promised=is_promised(traits), optional=True)
+            for name, (function, is_promised) in _TRAITS.items()
+            if is_promised(traits) or not promised_only
+        ]
+    return found
+
+
+def parametrize_with_checks(
+    components: Sequence[Any] | Iterable[Any], *, expected_failures: dict[str, str] | None = None
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Parametrise a pytest function of two arguments, component and check, with all checks of each component.
+
+    Parameters
+    ----------
+    components: instances to be checked; the ids of the tests show them as code.
+    expected_failures: names of checks (``"continuity"``, or ``"continuity-3d"`` for one dimension), each with the
+        reason why it fails; a check that then succeeds is an error.
+
+    Examples
+    --------
+    ::
+
+        @parametrize_with_checks([MyMethod()])
+        def test_keeps_its_promises(method, check):
+            check(method)
+    """
+    import pytest
+
+    reasons = expected_failures or {}
+    cases = []
+    for component in components:
+        for check in checks_of(component):
+            reason = reasons.get(str(check), reasons.get(check.name))
+            marks = [] if reason is None else [pytest.mark.xfail(reason=reason, strict=True)]
+            cases.append(pytest.param(component, check, id=f"{title(component)}-{check}", marks=marks))
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        names = function.__code__.co_varnames[: function.__code__.co_argcount]
+        if len(names) != 2:
+            raise TypeError(
+                f"a function parametrised with checks takes two arguments, the component and the check, and"
+                f" {function.__name__} takes {len(names)}"
+            )
+        decorated: Callable[..., Any] = pytest.mark.parametrize(names, cases)(function)
+        return decorated
+
+    return decorate
