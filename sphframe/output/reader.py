@@ -71,7 +71,9 @@ def _prepared(dataset: xr.Dataset, path: Path) -> xr.Dataset:
     samples = int(np.isfinite(dataset["probe_time"].values).sum())
     status = RunStatus(int(dataset["run_status"]))
     message = str(dataset["run_message"].astype(str).values)
-    dataset = dataset.isel(probe_time=slice(samples)).drop_vars(["run_status", "run_message"])
+    file = dataset
+    dataset = file.isel(probe_time=slice(samples)).drop_vars(["run_status", "run_message"])
+    dataset.set_close(file.close)
     dataset.attrs["run_status"] = status.name.lower()
     dataset.attrs["run_message"] = message
     dataset.attrs["completed"] = "yes" if status is RunStatus.COMPLETED else "no"
