@@ -9,7 +9,7 @@ from typing import Any
 from sphframe.cases.case import Case, Component
 from sphframe.cases.checks import check_case
 from sphframe.errors import InputError
-from sphframe.registry import load
+from sphframe.registry import is_address, load
 from sphframe.registry.nearest import did_you_mean
 
 __all__ = ["load_case", "read_toml"]
@@ -27,10 +27,12 @@ def load_case(source: str | Path | Case, preset: str | None = None, overrides: M
 
     Where the same parameter is given twice, overrides come before the preset, and the preset before the source.
 
+    Files are data: nothing in them is executed, and they name components by their installed names only.
+
     Raises
     ------
     InputError: when a parameter is unknown, missing, of the wrong type, outside its bounds, or contradicts another;
-        when a file cannot be read.
+        when a file cannot be read, or names a component as ``module:attribute``.
     PluginError: when the case or a component is not installed or broken.
 
     Examples
@@ -43,10 +45,12 @@ def load_case(source: str | Path | Case, preset: str | None = None, overrides: M
         model, parameters = type(source), source.model_dump(exclude_unset=True)
     elif Path(source).suffix == ".toml":
         name, file_preset, parameters = read_toml(source)
+        _refuse_addresses(source, name, parameters, overrides or {})
         model = load("cases", name)
         parameters = {**_preset(model, file_preset), **parameters}
     elif Path(source).suffix == ".nc":
         name, parameters = _read_output(Path(source))
+        _refuse_addresses(source, name, parameters, overrides or {})
         model = load("cases", name)
     else:
         model, parameters = load("cases", str(source)), {}
@@ -119,6 +123,21 @@ def _read_output(path: Path) -> tuple[str, dict[str, Any]]:
     if not isinstance(name, str) or not isinstance(parameters, dict):
         raise InputError(f"{path}: its attributes case_name and case_parameters are damaged; run the case by name")
     return name, parameters
+
+
+def _refuse_addresses(
+    source: str | Path, name: str, parameters: Mapping[str, Any], overrides: Mapping[str, Any]
+) -> None:
+    """Refuse ``module:attribute`` in a file: a file that came from somewhere must not import code by its address."""
+    named = {"case": name, **{key: value for key, value in parameters.items() if key not in overrides}}
+    bodies = named.pop("bodies", None)
+    if isinstance(bodies, Mapping):
+        named.update({f"bodies.{key}": value for key, value in bodies.items()})
+    for key, value in named.items():
+        component = value.get("name") if isinstance(value, Mapping) else value
+        if isinstance(component, str) and is_address(component):
+            how = "run it by that address" if key == "case" else f"give it outside: --set {key}={component}"
+            raise InputError(f"{source}: {key} = {component!r} names code by its address, not an installed name; {how}")
 
 
 def _preset(model: type[Case], name: str | None) -> Mapping[str, Any]:

@@ -65,7 +65,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-Kind = Annotated[str | None, typer.Argument(help="interpolators, kernels, cases, ...; all by default")]
+Kind = Annotated[str | None, typer.Argument(metavar="KIND", help="interpolators, kernels, cases, ...; all by default")]
 Preset = Annotated[str | None, typer.Option(metavar="NAME", help="one of the case's presets, such as paper")]
 
 
@@ -88,14 +88,16 @@ def _welcome(
 
 @app.command("run")
 def _run(
-    case: Annotated[str, typer.Argument(help="a case's name, a TOML case file, or an output file (.nc) to repeat")],
+    case: Annotated[
+        str, typer.Argument(metavar="CASE", help="a case's name, a TOML case file, or an output file (.nc) to repeat")
+    ],
     preset: Preset = None,
     interpolator: Annotated[str | None, typer.Option(metavar="NAME", help="boundary interpolation method")] = None,
     assignments: Annotated[
         list[str] | None,
         typer.Option("--set", metavar="KEY=VALUE", help="a parameter, such as particle_spacing=0.01; repeatable"),
     ] = None,
-    until: Annotated[float | None, typer.Option(metavar="SECONDS", help="simulated time at which to stop")] = None,
+    until: Annotated[str | None, typer.Option(metavar="SECONDS", help="simulated time at which to stop")] = None,
     threads: Annotated[int | None, typer.Option(help="threads; by default all cores")] = None,
     output: Annotated[Path | None, typer.Option(metavar="FILE", help="by default CASE.nc in this folder")] = None,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="replace files of an earlier run")] = False,
@@ -111,20 +113,31 @@ def _run(
 @app.command("list")
 def _list(kind: Kind = None) -> None:
     """List what is installed, without loading it."""
-    from sphframe.cli.show import list_command
+    from sphframe.cli.list import list_command
 
     list_command(kind)
 
 
 @app.command("show")
 def _show(
-    name: Annotated[str, typer.Argument(help="a case, a case file, an output file, or any component")],
+    name: Annotated[str, typer.Argument(metavar="NAME", help="a case, a case file, an output file, or any component")],
     preset: Preset = None,
 ) -> None:
     """Show a case's parameters, units, defaults and presets, or a component's options."""
     from sphframe.cli.show import show_command
 
     show_command(name, preset)
+
+
+@app.command("verify")
+def _verify(
+    names: Annotated[list[str] | None, typer.Argument(metavar="NAME...", help="by default all methods")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="print JSON in place of a table")] = False,
+) -> None:
+    """Test interpolation methods against what they promise."""
+    from sphframe.cli.verify import verify
+
+    raise typer.Exit(verify(names or [], as_json=as_json))
 
 
 @app.command("doctor")

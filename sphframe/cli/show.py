@@ -1,4 +1,4 @@
-"""CLI: ``sphframe list`` and ``sphframe show``."""
+"""CLI: ``sphframe show``."""
 
 import inspect
 import re
@@ -13,19 +13,7 @@ from rich.text import Text
 from sphframe.cases import Case, Component, Derived, load_case
 from sphframe.registry import KINDS, available, load
 
-__all__ = ["list_command", "show_command"]
-
-
-def list_command(kind: str | None) -> None:
-    """Print the components of one kind or of all, with what provides them."""
-    table = Table(box=None, pad_edge=False)
-    for heading in ("kind", "name", "from", ""):
-        table.add_column(heading, overflow="fold")
-    for one in [kind] if kind else KINDS:
-        for entry in available(one):
-            origin = f"{entry.distribution} {entry.version}"
-            table.add_row(one, entry.name, origin, Text(entry.error or "", style="red"))
-    Console(highlight=False).print(table)
+__all__ = ["show_command"]
 
 
 def show_command(name: str, preset: str | None) -> None:

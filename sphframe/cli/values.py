@@ -9,7 +9,7 @@ from sphframe.errors import InputError
 __all__ = ["read_assignments"]
 
 
-def read_assignments(assignments: Iterable[str], options: Mapping[str, Any]) -> dict[str, Any]:
+def read_assignments(assignments: Iterable[str], options: Mapping[str, str | None]) -> dict[str, Any]:
     """Return the parameters of ``KEY=VALUE`` texts and of options of the same names (None: not given).
 
     A value is read as TOML (0.01, true, "text", [1, 2], {name = "sfdi"}) and, where it is not, as a text.
@@ -23,7 +23,7 @@ def read_assignments(assignments: Iterable[str], options: Mapping[str, Any]) -> 
     >>> read_assignments(["particle_spacing=0.01", "interpolator.form=printed"], {"interpolator": "sfdi"})
     {'interpolator': 'sfdi', 'particle_spacing': 0.01, 'interpolator.form': 'printed'}
     """
-    parameters = {name: value for name, value in options.items() if value is not None}
+    parameters = {name: _value(text) for name, text in options.items() if text is not None}
     for text in assignments:
         key, equals, value = text.partition("=")
         key = key.strip()

@@ -190,6 +190,10 @@ BAD_FILES: list[tuple[str, str]] = [
     (TANK.replace("[1.5, 0.5]", "[1, 2, 3]"), r"walls\[0\].points\[3\] = \[1, 2, 3\] must have 2 or fewer entries"),
     (TANK.replace("[1.3, 0.3], [0, 0.3]]", "]"), r"fluid\[0\].points = .* must have 3 or more entries"),
     ("walls = []\nfluid = []\nparticle_spacing = 0.1\nuntil = 1", "walls = .* must have 1 or more entries"),
+    ('case = "os:PathLike"', "names code by its address"),
+    ('case = "dam-break"\ninterpolator = "my.module:Method"', "give it outside: --set interpolator=my.module:Method"),
+    ('case = "dam-break"\n[kernel]\nname = "my_module:Kernel"', "names code by its address"),
+    (TANK + "[bodies.paddle]\nname = 'my_module:Body'", "bodies.paddle = 'my_module:Body' names code"),
     (TANK.replace("until = 0.5", ""), "until is missing; give it a value: time at which the run ends"),
 ]
 

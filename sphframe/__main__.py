@@ -1,0 +1,5 @@
+"""sphframe: ``python -m sphframe`` is the command ``sphframe``."""
+
+from sphframe.cli import main
+
+main()

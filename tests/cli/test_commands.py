@@ -1,0 +1,226 @@
+"""The command line: what it prints, writes and returns."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import xarray as xr
+from rich.console import Console
+from typer.testing import CliRunner, Result
+
+from sphframe.cases import load_case
+from sphframe.cli.app import app
+from sphframe.cli.progress import ProgressDisplay
+from sphframe.cli.values import read_assignments
+from sphframe.errors import SimulationError
+
+SMALL = ["--set", "particle_spacing=0.03", "--set", "tank_length=0.3", "--threads", "1"]
+
+
+def call(*arguments: str, **environment: str) -> Result:
+    return CliRunner().invoke(app, arguments, env={"COLUMNS": "200", "NO_COLOR": "1", **environment})
+
+
+def test_alone_it_says_what_to_do_next() -> None:
+    result = call()
+    assert result.exit_code == 0
+    assert "sphframe run dam-break" in result.stdout
+
+
+def test_version() -> None:
+    assert call("--version").stdout == "0.1.0\n"
+
+
+@pytest.mark.parametrize("command", ["run", "list", "show", "doctor"])
+def test_every_command_has_help(command: str) -> None:
+    result = call(command, "--help")
+    assert result.exit_code == 0
+    assert f"Usage: sphframe {command}" in result.stdout
+
+
+def test_help_and_list_load_neither_numba_nor_scipy() -> None:
+    for arguments in ("['--help']", "[]", "['list']"):
+        code = f"from sphframe.cli.app import app; app({arguments}, standalone_mode=False)"
+        check = "; import sys; print([m for m in ('numba', 'scipy', 'xarray') if m in sys.modules])"
+        shown = subprocess.run([sys.executable, "-c", code + check], capture_output=True, text=True, check=True).stdout
+        assert shown.splitlines()[-1] == "[]"
+
+
+def test_list_names_kinds_components_and_distributions() -> None:
+    listed = call("list").stdout
+    for text in ("improved-shepard", "sphframe-shepard", "dam-break", "gaussian", "tait", "rk4"):
+        assert text in listed
+    assert "gaussian" not in call("list", "interpolators").stdout
+
+
+def test_list_shows_a_broken_plugin(install) -> None:  # type: ignore[no-untyped-def]
+    install("broken", {"broken_method": "import nothing_like_it"}, {"interpolators": {"broken": "broken_method:X"}})
+    assert "broken 1.0" in call("list", "interpolators").stdout
+    doctor = call("doctor")
+    assert doctor.exit_code == 1
+    assert "broken: interpolator 'broken' of broken 1.0: ModuleNotFoundError" in doctor.stdout
+
+
+def test_show_a_case() -> None:
+    shown = call("show", "dam-break").stdout
+    for text in ("water_height", "2 water_height", "kg m-3", "--preset paper", "particle_spacing = 0.004", "gaussian"):
+        assert text in shown
+    assert "0.004" in call("show", "dam-break", "--preset", "paper").stdout.partition("--preset")[0]
+
+
+def test_show_a_case_file_and_a_component(tmp_path: Path) -> None:
+    path = tmp_path / "case.toml"
+    path.write_text('case = "dam-break"\nwater_height = 0.45\n')
+    assert "0.45" in call("show", str(path)).stdout
+    assert "gamma = 7.0" in call("show", "tait").stdout
+
+
+def test_doctor() -> None:
+    result = call("doctor")
+    assert "threading layer" in result.stdout
+    assert "numba" in result.stdout
+    assert "all is well" in result.stdout, result.stdout
+
+
+def test_values_are_toml_or_text() -> None:
+    given = read_assignments(
+        ["a=1", "b=0.5", "c=text", 'd="1"', "e=[1, 2]", "f={x = 1}", "g=true", "h=1\nz=2", "i = 3", "j=a=b"],
+        {"k": None},
+    )
+    assert given == {
+        "a": 1,
+        "b": 0.5,
+        "c": "text",
+        "d": "1",
+        "e": [1, 2],
+        "f": {"x": 1},
+        "g": True,
+        "h": "1\nz=2",
+        "i": 3,
+        "j": "a=b",
+    }
+
+
+def test_run_writes_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = call("run", "hydrostatic-tank", *SMALL, "--until", "0.02", "--interpolator", "normalized")
+    assert result.exit_code == 0, result.output
+    assert "normalized interpolation" in result.stderr
+    assert "compiling" in result.stderr
+    assert "100%" in result.stderr
+    for text in ("0.02 s in", "peak at P0", "particle-steps/s", "wrote hydrostatic-tank.nc"):
+        assert text in result.stdout
+    with xr.open_dataset(tmp_path / "hydrostatic-tank.nc") as dataset:
+        assert dataset.attrs["case_name"] == "hydrostatic-tank"
+    again = call("run", "hydrostatic-tank", *SMALL, "--until", "0.02")
+    assert again.exit_code == 2
+    assert "--overwrite" in again.stderr
+
+    repeated = call("run", "hydrostatic-tank.nc", "--until", "0.01", "--output", "second.nc", "--threads", "1")
+    assert repeated.exit_code == 0, repeated.output
+    case = load_case("second.nc")
+    assert (case.interpolator.name, case.until, case.particle_spacing) == ("normalized", 0.01, 0.03)
+
+
+def test_a_case_file_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "slope.toml").write_text(
+        """
+        particle_spacing = 0.03
+        until = 0.01
+        walls = [{ shape = "polygon", name = "tank", points = [[0, 0.5], [0, 0], [0.3, 0], [0.6, 0.5]] }]
+        fluid = [{ shape = "polygon", points = [[0, 0], [0.3, 0], [0.48, 0.3], [0, 0.3]] }]
+        probes = [{ name = "corner", position = [0, 0] }]
+        """
+    )
+    result = call("run", "slope.toml", "--threads", "1")
+    assert result.exit_code == 0, result.output
+    assert (tmp_path / "slope.nc").exists()
+
+
+def test_a_doubtful_case_warns_and_runs(tmp_path: Path) -> None:
+    output = str(tmp_path / "run.nc")
+    result = call(
+        "run", "hydrostatic-tank", *SMALL, "--set", "particle_spacing=0.06", "--until", "0.01", "--output", output
+    )
+    assert result.exit_code == 2  # particle_spacing is given twice
+    small = ["--set", "particle_spacing=0.06", "--set", "tank_length=0.3", "--threads", "1"]
+    result = call("run", "hydrostatic-tank", *small, "--until", "0.01", "--output", output)
+    assert result.exit_code == 0, result.output
+    assert "warning: particle_spacing = 0.06 m leaves 5 particles over the depth" in result.stderr
+
+
+def test_a_run_gone_wrong_exits_with_three(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from sphframe.simulation import Simulation
+
+    def fail(self: Simulation) -> None:
+        raise SimulationError("the time step has collapsed", time=self.time, step=self.step)
+
+    monkeypatch.setattr(Simulation, "advance", fail)
+    result = call("run", "hydrostatic-tank", *SMALL, "--output", str(tmp_path / "run.nc"))
+    assert result.exit_code == 3
+    assert "error: the time step has collapsed (t = 0 s, step 0)" in result.stderr
+
+
+def test_a_defect_has_no_traceback_unless_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from sphframe.simulation import Simulation
+
+    def fail(self: Simulation) -> None:
+        raise RuntimeError("plain wrong")
+
+    monkeypatch.setattr(Simulation, "advance", fail)
+    arguments = ["run", "hydrostatic-tank", *SMALL, "--output", str(tmp_path / "run.nc"), "--overwrite"]
+    result = call(*arguments)
+    assert result.exit_code == 1
+    assert "RuntimeError: plain wrong" in result.stderr
+    assert "Traceback" not in result.stderr
+    assert isinstance(call(*arguments, SPHFRAME_DEBUG="1").exception, RuntimeError)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_interrupted_it_keeps_what_it_has(tmp_path: Path, number: signal.Signals) -> None:
+    command = [sys.executable, "-m", "sphframe", "run", "hydrostatic-tank", *SMALL, "--until", "1000"]
+    process = subprocess.Popen(
+        command,
+        cwd=tmp_path,
+        env={**os.environ, "NO_COLOR": "1"},
+        stderr=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        text=True,
+    )
+    assert process.stderr is not None
+    for line in process.stderr:
+        if "ghost particles" in line:
+            break
+    while not (tmp_path / "hydrostatic-tank.nc").exists():
+        assert process.poll() is None
+    process.send_signal(number)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "error: interrupted" in errors
+    assert "Traceback" not in errors
+    with xr.open_dataset(tmp_path / "hydrostatic-tank.nc") as dataset:
+        assert dataset.attrs["case_name"] == "hydrostatic-tank"
+
+
+class FakeSimulation:
+    """Half way through a run."""
+
+    step, time, time_step = 500, 0.55, 1e-3
+
+    class case:  # noqa: N801
+        until = 1.0
+
+
+def test_progress_on_a_terminal_and_in_a_log() -> None:
+    log = Console(force_terminal=False, record=True, width=120)
+    terminal = Console(force_terminal=True, record=True, width=120)
+    for console in (log, terminal):
+        display = ProgressDisplay(console)
+        display.sphframe_run_started(FakeSimulation)
+        display.sphframe_step_completed(FakeSimulation)
+        display.sphframe_run_failed(FakeSimulation, KeyboardInterrupt())
+    assert "50%  step 500, t = 0.55 of 1 s, dt = 1.00e-03 s" in log.export_text()
