@@ -50,7 +50,7 @@ class Cloud:
     @property
     def dim(self) -> int:
         """2 or 3."""
-        return self.offsets.shape[1]
+        return int(self.offsets.shape[1])
 
     @property
     def distances(self) -> Array:
@@ -104,8 +104,9 @@ def _ball(rng: np.random.Generator, dim: int, radius: float, jitter: float = 0.2
     reach = int(radius) + 2
     axes = np.meshgrid(*[np.arange(-reach, reach + 1.0)] * dim, indexing="ij")
     lattice = np.stack(axes, axis=-1).reshape(-1, dim)
-    points = lattice + rng.uniform(-0.5, 0.5, dim) + rng.uniform(-jitter, jitter, lattice.shape)
-    return points @ _rotation(rng, dim).T
+    points: Array = lattice + rng.uniform(-0.5, 0.5, dim) + rng.uniform(-jitter, jitter, lattice.shape)
+    turned: Array = np.matmul(points, _rotation(rng, dim).T)
+    return turned
 
 
 def _rotation(rng: np.random.Generator, dim: int) -> Array:

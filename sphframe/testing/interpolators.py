@@ -14,7 +14,7 @@ from sphframe.interfaces.traits import DRY, OK, Status
 from sphframe.registry import create
 from sphframe.specialise import compile_part
 from sphframe.testing.clouds import REGULAR, SPARSE, Cloud, build, condition
-from sphframe.testing.evaluation import Evaluate, Outcome, evaluator, plain_evaluator, title
+from sphframe.testing.evaluation import Evaluate, Outcome, evaluator, extrapolates, plain_evaluator, title
 from sphframe.testing.proof import BrokenPromiseError, prove
 
 Array = NDArray[np.float64]
@@ -47,7 +47,7 @@ def check_traits(method: BoundaryInterpolator, dim: int) -> None:
     traits = method.traits
     if not isinstance(traits, Traits):
         raise BrokenPromiseError(f"{title(method)}: traits must be a sphframe.Traits, got {traits!r}")
-    fewest = traits.fewest_points
+    fewest: object = traits.fewest_points
     if not (isinstance(fewest, tuple) and len(fewest) == 2 and all(isinstance(n, int) and n >= 1 for n in fewest)):
         raise BrokenPromiseError(
             f"{title(method)}: fewest_points must be two whole numbers, for 2-D and 3-D, got {fewest!r}"
@@ -351,9 +351,7 @@ def _check_scaling(method: BoundaryInterpolator, dim: int, factors: tuple[float,
 
 def check_translation_invariance(method: BoundaryInterpolator, dim: int) -> None:
     """Moving point and particles together changes no weight, in :func:`sphframe.boundary.operator.operator`."""
-    lift = (
-        {"lift": np.linspace(0.5, 1.0, dim)} if method.traits.evaluation_point is EvaluationPoint.EXTRAPOLATED else {}
-    )
+    lift = np.linspace(0.5, 1.0, dim) if extrapolates(method) else None
     for family in REGULAR:
         for seed in range(3):
             cloud = build(family, dim, seed, ratio=1.3 if dim == 2 else 1.0)
@@ -361,8 +359,8 @@ def check_translation_invariance(method: BoundaryInterpolator, dim: int) -> None
             h = cloud.support / 3.0
             point = np.zeros(dim)
             shift = 1024.0 * np.arange(1.0, dim + 1)
-            here, _ = operator(method, point, positions, cloud.volumes, smoothing_length=h, **lift)
-            there, _ = operator(method, point + shift, positions + shift, cloud.volumes, smoothing_length=h, **lift)
+            here, _ = operator(method, point, positions, cloud.volumes, smoothing_length=h, lift=lift)
+            there, _ = operator(method, point + shift, positions + shift, cloud.volumes, smoothing_length=h, lift=lift)
             difference = float(np.max(np.abs(here.toarray() - there.toarray())))
             if not difference <= 1e-12 * Outcome(here.data, OK).magnitude:
                 raise _broken(
@@ -462,10 +460,17 @@ def check_plain_python_agrees(method: BoundaryInterpolator, dim: int) -> None:
 
     for family in SPARSE:
         for seed in range(4):
-            cloud = build(family, dim, seed, ratio=1.0, lifted=method.traits.evaluation_point == "extrapolated")
+            cloud = build(family, dim, seed, ratio=1.0, lifted=extrapolates(method))
             complaint = wrong_with(cloud)
             if complaint is not None:
                 raise _broken(method, dim, f"compiled and plain Python must agree. {complaint}", cloud)
+
+
+def check_solver_agrees(method: BoundaryInterpolator, dim: int) -> None:
+    """The solver fills ghosts with the values of :func:`sphframe.boundary.operator.operator`."""
+    from sphframe.testing.solver import check_solver_agrees as check  # most of sphframe is imported by it
+
+    check(method, dim)
 
 
 def check_writes_only_out(method: BoundaryInterpolator, dim: int) -> None:

@@ -1,0 +1,114 @@
+"""CLI: ``sphframe verify``."""
+
+import json
+import sys
+from collections.abc import Sequence
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from sphframe.errors import InputError
+
+if TYPE_CHECKING:
+    from sphframe.testing import Report
+
+__all__ = ["verify"]
+
+_COLUMNS = {
+    "sum is one": ("partition_of_unity",),
+    "not negative": ("non_negative",),
+    "in range": ("range_restricted",),
+    "linear": ("linear_reproduction",),
+    "quadratic": ("quadratic_reproduction",),
+    "at particles": ("interpolates_particles",),
+    "rotation": ("rotation_invariance",),
+    "volumes": ("volume_independence",),
+    "continuous": ("continuity",),
+}
+_MARKS = {
+    "kept": ("yes", "green"),
+    "held": ("(yes)", "yellow"),
+    "broken": ("BROKEN", "bold red"),
+    "absent": ("-", "dim"),
+}
+
+
+def verify(names: Sequence[str] = (), *, as_json: bool = False) -> int:
+    """Check components against what they promise, and print a table and every failure.
+
+    Parameters
+    ----------
+    names: as for :func:`sphframe.testing.verify`; all installed interpolation methods by default.
+    as_json: print JSON in place of the table.
+
+    Returns
+    -------
+    The exit code: 1 when a promise is broken, 0 otherwise.
+
+    Raises
+    ------
+    InputError: when the packages that the suite needs are not installed.
+    """
+    if find_spec("hypothesis") is None:
+        raise InputError("the verification suite needs hypothesis: python -m pip install 'sphframe[testing]'")
+    from sphframe.testing import verify as reports_of
+
+    if as_json:
+        reports = list(reports_of(names))
+        print(json.dumps([report.as_data() for report in reports], indent=2))
+        return int(any(report.broken for report in reports))
+
+    console = Console(highlight=False)
+    if console.is_terminal:
+        with console.status("verifying") as status:
+            reports = list(reports_of(names, progress=lambda text: status.update(f"verifying {text}")))
+    else:
+        reports = list(reports_of(names))
+    _print(reports)
+    return int(any(report.broken for report in reports))
+
+
+def _print(reports: "Sequence[Report]") -> None:
+    console = Console(highlight=False, soft_wrap=True, width=None if sys.stdout.isatty() else 160)
+    methods = [report for report in reports if report.kind == "interpolators"]
+    others = [report for report in reports if report.kind != "interpolators"]
+    if methods:
+        table = Table(box=None, pad_edge=False)
+        for column in ("method", *_COLUMNS, "all else"):
+            table.add_column(column)
+        for report in methods:
+            verdicts = report.verdicts()
+            rest = {name for names in _COLUMNS.values() for name in names}
+            cells = [_cell([verdicts[n] for n in names if n in verdicts]) for names in _COLUMNS.values()]
+            cells.append(_cell([verdict for name, verdict in verdicts.items() if name not in rest]))
+            table.add_row(
+                Text(report.name), *(cells if report.error is None else [Text("BROKEN", "bold red")] * len(cells))
+            )
+        console.print(table)
+        console.print("yes: promised and held; (yes): held though not promised; -: not promised; BROKEN: see below\n")
+    for report in others:
+        verdicts = report.verdicts()
+        broken = [name for name, verdict in verdicts.items() if verdict == "broken"]
+        console.print(
+            Text(f"{report.name}: {'broken: ' + ', '.join(broken) if broken else 'holds ' + ', '.join(verdicts)}")
+        )
+    for report in reports:
+        if report.error is not None:
+            console.print(Text.assemble(("broken: ", "bold red"), f"{report.name}: {report.error}\n"))
+        for result in report.results:
+            if result.verdict == "broken":
+                console.print(
+                    Text.assemble(("broken: ", "bold red"), f"{report.name}, {result.check}\n{result.failure}\n")
+                )
+    count = sum(report.broken for report in reports)
+    console.print(f"{count} of {len(reports)} break a promise" if count else f"all {len(reports)} keep their promises")
+
+
+def _cell(verdicts: Sequence[str]) -> Text:
+    for verdict in ("broken", "absent", "kept", "held"):
+        if verdict in verdicts:
+            return Text(*_MARKS[verdict])
+    return Text("")

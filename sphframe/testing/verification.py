@@ -1,0 +1,204 @@
+"""Testing: all checks of components chosen by name, as a report."""
+
+import dataclasses
+import itertools
+import re
+import typing
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from sphframe.errors import InputError, PluginError, UnknownComponentError
+from sphframe.registry import available, create, find, load
+from sphframe.testing.proof import BrokenPromiseError
+from sphframe.testing.suite import Check, checks_of
+
+__all__ = ["Report", "Result", "components_called", "verify"]
+
+KINDS = ("interpolators", "kernels", "equations_of_state", "integrators", "rigid_bodies")
+Verdict = Literal["kept", "held", "broken", "absent"]
+
+
+@dataclass(frozen=True)
+class Result:
+    """What came of one check."""
+
+    check: Check
+    failure: str | None
+    """why the component does not have the property; None where it has"""
+
+    @property
+    def verdict(self) -> Verdict:
+        """Promised and kept, held though not promised, promised and broken, or absent as declared."""
+        if self.check.promised:
+            return "kept" if self.failure is None else "broken"
+        return "held" if self.failure is None else "absent"
+
+
+@dataclass(frozen=True)
+class Report:
+    """All results of one component, or why it could not be had."""
+
+    name: str
+    kind: str
+    distribution: str
+    results: tuple[Result, ...]
+    error: str | None = None
+
+    @property
+    def broken(self) -> bool:
+        """Whether a promise is broken or the component could not be had."""
+        return self.error is not None or any(result.verdict == "broken" for result in self.results)
+
+    def verdicts(self) -> dict[str, Verdict]:
+        """Return the verdict per property, over all dimensions: the worst of them."""
+        worst = ("held", "kept", "absent", "broken")
+        found: dict[str, Verdict] = {}
+        for result in self.results:
+            name = result.check.name
+            found[name] = max(found.get(name, result.verdict), result.verdict, key=worst.index)
+        return found
+
+    def as_data(self) -> dict[str, Any]:
+        """Return the report as plain data, for JSON."""
+        return {
+            "name": self.name,
+            "kind": self.kind,
+            "distribution": self.distribution,
+            "broken": self.broken,
+            "error": self.error,
+            "properties": self.verdicts(),
+            "checks": [
+                {
+                    "check": result.check.name,
+                    "dim": result.check.dim,
+                    "promised": result.check.promised,
+                    "verdict": result.verdict,
+                    "failure": result.failure,
+                }
+                for result in self.results
+            ],
+        }
+
+
+def verify(names: Sequence[str] = (), *, progress: Callable[[str], None] | None = None) -> Iterator[Report]:
+    """Run all checks of the components called ``names``, one report after the other.
+
+    Parameters
+    ----------
+    names: registered names, ``module:attribute``, or either with options as in ``sfdi[form=printed]``; of interpolation
+        methods, kernels, equations of state, integrators and rigid bodies. Without names: every installed interpolation
+        method, once for each value of an option that is a choice.
+    progress: called with a line of text before each component and check.
+
+    Raises
+    ------
+    UnknownComponentError: when nothing has one of the names.
+    """
+    chosen = [_find(name) for name in names] or list(_installed_methods())
+    for kind, label, name, options in chosen:
+        yield _report(kind, label, name, options, progress or (lambda text: None))
+
+
+def components_called(name: str) -> Any:
+    """Return the component that ``name`` stands for in :func:`verify`."""
+    kind, _, bare, options = _find(name)
+    return create(kind, bare, **options)
+
+
+_Choice = tuple[str, str, str, dict[str, Any]]
+
+
+def _find(label: str) -> _Choice:
+    match = re.fullmatch(r"([^\[\]]+)(?:\[(.*)\])?", label)
+    if not match:
+        raise InputError(f"{label!r} is not of the form NAME or NAME[option=value,...]")
+    name, listed = match.group(1), match.group(2)
+    options: dict[str, Any] = {}
+    for item in filter(None, (listed or "").split(",")):
+        key, equals, value = item.partition("=")
+        if not equals:
+            raise InputError(f"{item!r} in {label!r} is not of the form option=value")
+        options[key.strip()] = value.strip()
+    if ":" in name:
+        return _kind_of_address(name), label, name, options
+    for kind in KINDS:
+        if any(entry.name == name for entry in available(kind)):
+            return kind, label, name, options
+    find("interpolators", name)  # raises, with the nearest names
+    raise UnknownComponentError(f"nothing is called {name!r}")
+
+
+def _kind_of_address(name: str) -> str:
+    """The first kind whose interface the class implements; the error of the first kind when there is none."""
+    first: PluginError | None = None
+    for kind in KINDS:
+        try:
+            load(kind, name)
+        except PluginError as error:
+            first = first or error
+        else:
+            return kind
+    assert first is not None
+    raise first
+
+
+def _installed_methods() -> Iterator[_Choice]:
+    for entry in available("interpolators"):
+        try:
+            variants = list(_variants(load("interpolators", entry.name)))
+        except PluginError:
+            variants = [{}]  # the report will say why
+        for options in variants:
+            listed = ",".join(f"{key}={value}" for key, value in options.items())
+            yield "interpolators", f"{entry.name}[{listed}]" if listed else entry.name, entry.name, options
+
+
+def _variants(component: Any) -> Iterator[dict[str, Any]]:
+    """Every combination of the values of options that are a choice, those at their default left out."""
+    if not dataclasses.is_dataclass(component):
+        yield {}
+        return
+    hints = typing.get_type_hints(component)
+    choices = {
+        field.name: (field.default, typing.get_args(hints[field.name]))
+        for field in dataclasses.fields(component)
+        if typing.get_origin(hints.get(field.name)) is Literal and field.default is not dataclasses.MISSING
+    }
+    # the default first
+    orders = [[default, *(v for v in values if v != default)] for default, values in choices.values()]
+    for combination in itertools.product(*orders):
+        chosen = zip(choices, combination, strict=True)
+        yield {name: value for name, value in chosen if value != choices[name][0]}
+
+
+def _report(kind: str, label: str, name: str, options: dict[str, Any], progress: Callable[[str], None]) -> Report:
+    entry = find(kind, name)
+    distribution = " ".join(filter(None, (entry.distribution, entry.version)))
+    progress(label)
+    try:
+        component = create(kind, name, **options)
+        checks = checks_of(component, promised_only=False)
+    except Exception as error:
+        return Report(label, kind, distribution, (), f"{type(error).__name__}: {error}")
+    results: list[Result] = []
+    unusable: set[int | None] = set()
+    for check in checks:
+        if check.dim in unusable:
+            continue
+        progress(f"{label}: {check.name.replace('_', ' ')}{f' in {check.dim}-D' if check.dim else ''}")
+        result = Result(check, _failure(check, component))
+        results.append(result)
+        if result.failure is not None and check.name in ("traits", "compiles"):
+            unusable.add(check.dim)  # all others would only repeat it
+    return Report(label, kind, distribution, tuple(results))
+
+
+def _failure(check: Check, component: Any) -> str | None:
+    try:
+        check(component)
+    except BrokenPromiseError as error:
+        return str(error)
+    except Exception as error:
+        return f"{check}: {type(error).__name__}: {error}"
+    return None
