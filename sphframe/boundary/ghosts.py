@@ -15,7 +15,7 @@ Departs from the paper: its pressure condition lacks the wall's own acceleration
 hydrostatic field for any weights that sum to one, is this project's. A method that evaluates at the ghost always
 uses the balanced lift (there is no distance to lift over otherwise); one that extrapolates uses none.
 
-Source: X. Huang et al. (2019), doi:10.3390/w11051098, section 2.2 and Eqs. 8, 13, 16, 21.
+Source: X. Huang et al. (2019), doi:10.3390/w11051110, section 2.2 and Eqs. 8, 13, 16, 21.
 """
 
 import math

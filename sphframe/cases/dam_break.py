@@ -29,7 +29,7 @@ class DamBreak(Case):
     surge does not count. Half a spacing is added, so that they start as L and H and the front at the wall is there
     when it is within a spacing of ``tank_length``.
 
-    Source: Huang et al. (2019), doi:10.3390/w11051098, section 4.2; B. Buchner, Green water on ship-type offshore
+    Source: Huang et al. (2019), doi:10.3390/w11051110, section 4.2; B. Buchner, Green water on ship-type offshore
     structures, PhD thesis, TU Delft (2002).
 
     Examples

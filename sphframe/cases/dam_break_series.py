@@ -49,7 +49,7 @@ def dam_break_density(
     -------
     rho, in kg/m^3, with the shape of ``x``.
 
-    Source: Huang et al. (2019), doi:10.3390/w11051098, section 4.2.
+    Source: Huang et al. (2019), doi:10.3390/w11051110, section 4.2.
 
     Examples
     --------

@@ -18,7 +18,7 @@ class HydrostaticTank(Case):
 
     Departs from the paper, which gives no sound speed: 20 sqrt(g H); its preset uses the paper's lift, ``mirror``.
 
-    Source: Huang et al. (2019), doi:10.3390/w11051098, section 4.1.
+    Source: Huang et al. (2019), doi:10.3390/w11051110, section 4.1.
 
     Examples
     --------

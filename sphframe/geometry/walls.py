@@ -5,7 +5,7 @@ x_M = 2 c - x_G, inside the fluid, and its reflection matrix S turns the velocit
 the mirror point into that of the ghost for free slip: S = 1 - 2 n n^T beside a face; the product of the faces'
 reflections where c lies on an edge or corner, which for two faces of a plane is the point reflection S = -1.
 
-Source: S. Marrone et al. (2011), doi:10.1016/j.cma.2010.12.016; X. Huang et al. (2019), doi:10.3390/w11051098,
+Source: S. Marrone et al. (2011), doi:10.1016/j.cma.2010.12.016; X. Huang et al. (2019), doi:10.3390/w11051110,
 section 2.2.
 """
 

@@ -10,7 +10,7 @@ two particles, so the fluid's volume-weighted density is kept, and nothing diffu
 
 Departs from the paper: its "x_ij = -x_ij" is a misprint; with the other sign the term would be anti-diffusive.
 
-Source: X. Huang et al. (2019), doi:10.3390/w11051098, Eq. 5; S. Marrone et al. (2011), doi:10.1016/j.cma.2010.12.016.
+Source: X. Huang et al. (2019), doi:10.3390/w11051110, Eq. 5; S. Marrone et al. (2011), doi:10.1016/j.cma.2010.12.016.
 """
 
 import numba

@@ -9,7 +9,7 @@ over fluid and ghosts. Both sums are antisymmetric between two fluid particles o
 
 Departs from the paper: the viscous factor is the constant rho0, not rho_i, with which momentum would not be conserved.
 
-Source: X. Huang et al. (2019), doi:10.3390/w11051098, Eq. 5.
+Source: X. Huang et al. (2019), doi:10.3390/w11051110, Eq. 5.
 """
 
 import numba
