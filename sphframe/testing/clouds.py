@@ -115,7 +115,8 @@ def _rotation(rng: np.random.Generator, dim: int) -> Array:
 
 
 def _direction(rng: np.random.Generator, dim: int) -> Array:
-    return _rotation(rng, dim)[0]
+    direction: Array = _rotation(rng, dim)[0]
+    return direction
 
 
 def _even(rng: np.random.Generator, points: Array) -> tuple[Array, Array]:
@@ -163,6 +164,13 @@ def _collinear(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array
     if rng.random() < 0.7:  # otherwise along an axis
         points = points @ _rotation(rng, dim).T
     return _even(rng, points)
+
+
+def _nearly_collinear(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    """A line (plane) beside the point, thickened: as long as that goes unnoticed, weights grow without limit."""
+    points = rng.uniform(-0.5, 0.5, (int(rng.integers(dim + 1, 10)), dim)) * radius
+    points[:, -1] = 0.3 * radius + 10.0 ** rng.uniform(-7.0, -1.0) * rng.normal(size=len(points))
+    return _even(rng, points @ _rotation(rng, dim).T)
 
 
 def _conic(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
@@ -223,6 +231,7 @@ FAMILIES: dict[str, Recipe] = {
     "thin sheet": _thin_sheet,
     "spray": _spray,
     "collinear": _collinear,
+    "nearly collinear": _nearly_collinear,
     "conic": _conic,
     "coincident": _coincident,
     "nearly coincident": _nearly_coincident,

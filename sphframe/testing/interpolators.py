@@ -96,7 +96,10 @@ def check_honest_status(method: BoundaryInterpolator, dim: int) -> None:
     run = _evaluator(method, dim)
 
     def wrong_with(cloud: Cloud) -> str | None:
-        outcome = run(cloud)
+        try:
+            outcome = run(cloud)
+        except Exception as error:
+            return f"the compiled function raises {type(error).__name__}: {error}; it must answer with a status instead"
         if outcome.status not in tuple(Status):
             return f"the status is {outcome.status}, which is not one of sphframe.Status"
         if outcome.status == DRY:

@@ -1,0 +1,594 @@
+"""Deliberately wrong interpolation methods, each caught by the check that is meant to catch it, whatever the seed."""
+
+import math
+import statistics
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import hypothesis.core
+import numpy as np
+import pytest
+
+from sphframe import (
+    DRY,
+    OK,
+    SINGULAR,
+    TOO_FEW,
+    BoundaryInterpolator,
+    CompiledKernel,
+    EvaluationPoint,
+    Traits,
+    WeightsFunction,
+    local_array,
+)
+from sphframe.testing import BrokenPromiseError, checks_of
+
+Factory = Callable[[CompiledKernel, int], WeightsFunction]
+
+
+class Wrong(BoundaryInterpolator):
+    """A method made of a factory and the traits that it claims."""
+
+    def __init__(self, factory: Factory, traits: Traits, fallback: Factory | None = None) -> None:
+        self.factory = factory
+        self.claimed = traits
+        self.fallback = fallback
+
+    def __repr__(self) -> str:
+        return f"Wrong({self.factory.__name__})"
+
+    @property
+    def traits(self) -> Traits:
+        return self.claimed
+
+    def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
+        return self.factory(kernel, dim)
+
+    def fallback_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
+        return (self.fallback or super().fallback_weights)(kernel, dim)
+
+
+class Case(NamedTuple):
+    method: Wrong
+    caught_by: str
+
+
+CASES: dict[str, Case] = {}
+AVERAGE = {"non_negative": True, "range_restricted": True}
+SHEPARD = {**AVERAGE, "interpolates_particles": True, "volume_independent": True}
+
+
+def wrong(mistake: str, caught_by: str, **claims: Any) -> Callable[[Factory], Factory]:
+    def register(factory: Factory) -> Factory:
+        fallback = claims.pop("fallback", None)
+        CASES[mistake] = Case(Wrong(factory, Traits(**claims), fallback), caught_by)
+        return factory
+
+    return register
+
+
+# wrong normalisation
+
+
+@wrong("a forgotten V_j", "partition_of_unity", **AVERAGE)
+def forgotten_volume(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        total = 0.0
+        for j in range(out.shape[0]):
+            total += kernel_values[j] * volumes[j]
+        if total <= 0.0:
+            return TOO_FEW
+        for j in range(out.shape[0]):
+            out[j] = kernel_values[j] / total
+        return OK
+
+    return weights
+
+
+@wrong("not normalised at all", "partition_of_unity", non_negative=True)
+def plain_sum(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        for j in range(out.shape[0]):
+            out[j] = kernel_values[j] * volumes[j]
+        return OK
+
+    return weights
+
+
+def improved_shepard(kernel, dim, volume=False, shifted=True, exponent_scale=0.0, power=4, softening=0.0):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        n = out.shape[0]
+        nearest = distances[0]
+        for j in range(n):
+            nearest = min(nearest, distances[j])
+        total = 0.0
+        for j in range(n):
+            r = distances[j]
+            scale = support if exponent_scale == 0.0 else exponent_scale
+            if nearest == 0.0 and softening == 0.0:
+                out[j] = 1.0 if r == 0.0 else 0.0
+            else:
+                s = min(r / scale, 1.0 - 1e-15)
+                first = min(nearest / scale, 1.0 - 1e-15)
+                exponent = -s * s / (1.0 - s * s)
+                if shifted:
+                    exponent += first * first / (1.0 - first * first)
+                out[j] = (math.exp(exponent) * (nearest + softening) / (r + softening)) ** power
+            total += out[j]
+        for j in range(n):
+            out[j] /= total
+            if volume:
+                out[j] *= volumes[j]
+        return OK
+
+    return weights
+
+
+@wrong("the V_j of Eq. 21", "partition_of_unity", **AVERAGE)
+def volume_of_eq_21(kernel, dim):
+    return improved_shepard(kernel, dim, volume=True)
+
+
+@wrong(
+    "a fallback of zeros", "partition_of_unity", fewest_points=(3, 4), fallback=lambda kernel, dim: zeros(kernel, dim)
+)
+def zero_fallback(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        if out.shape[0] < dim + 1:
+            return TOO_FEW
+        for j in range(out.shape[0]):
+            out[j] = 1.0 / out.shape[0]
+        return OK
+
+    return weights
+
+
+def zeros(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        for j in range(out.shape[0]):
+            out[j] = 0.0
+        return OK
+
+    return weights
+
+
+@wrong("float32 inside", "partition_of_unity", **AVERAGE)
+def single_precision(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        total = np.float32(0.0)
+        for j in range(out.shape[0]):
+            out[j] = np.exp(-((3.0 * distances[j] / support) ** 2))
+            total += np.float32(out[j])
+        for j in range(out.shape[0]):
+            out[j] /= total
+        return OK
+
+    return weights
+
+
+# trouble at special places
+
+
+@wrong("a NaN at r = 0", "honest_status", **SHEPARD)
+def nan_at_particle(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        total = 0.0
+        for j in range(out.shape[0]):
+            out[j] = 1.0 / distances[j] ** 2
+            total += out[j]
+        for j in range(out.shape[0]):
+            out[j] /= total
+        return OK
+
+    return weights
+
+
+@wrong("underflow near the cut-off", "honest_status", **SHEPARD)
+def underflow(kernel, dim):
+    return improved_shepard(kernel, dim, shifted=False)
+
+
+@wrong("the last neighbour's weight is never set", "honest_status", **AVERAGE)
+def last_unset(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        n = out.shape[0]
+        for j in range(n - 1):
+            out[j] = 1.0 / (n - 1)
+        return OK
+
+    return weights
+
+
+@wrong("an exception for two neighbours", "honest_status", **AVERAGE)
+def raising(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        if out.shape[0] == 2:
+            raise ValueError("two neighbours")
+        for j in range(out.shape[0]):
+            out[j] = 1.0 / out.shape[0]
+        return OK
+
+    return weights
+
+
+@wrong("a status of its own", "honest_status", **AVERAGE)
+def unknown_status(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        for j in range(out.shape[0]):
+            out[j] = 1.0 / out.shape[0]
+        return 7
+
+    return weights
+
+
+@wrong("DRY with neighbours", "honest_status", **AVERAGE)
+def dry(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        return DRY
+
+    return weights
+
+
+# wrong order of consistency
+
+
+def first_order(kernel, dim, sign=1.0, lift_factor=1.0, ridge=0.0, guarded=True, shift=0, skip_last=False):
+    """Moving least squares about the centre of mass of the weights, or the same with a mistake."""
+    entries = dim * dim
+
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        n = out.shape[0]
+        if guarded and n < dim + 1:
+            return TOO_FEW
+        total = 0.0
+        centre = local_array(dim)
+        target = local_array(dim)
+        matrix = local_array(entries)
+        for a in range(dim):
+            centre[a] = 0.0
+            for b in range(dim):
+                matrix[a * dim + b] = 0.0
+        for j in range(n):
+            total += kernel_values[j] * volumes[j]
+        if total <= 0.0:
+            return TOO_FEW
+        for j in range(n):
+            for a in range(dim):
+                centre[a] += kernel_values[j] * volumes[j] / total * offsets[j, a] / support
+        trace = 0.0
+        for j in range(n):
+            for a in range(dim):
+                for b in range(dim):
+                    x = offsets[j, a] / support - centre[a]
+                    y = offsets[j, b] / support - centre[b]
+                    matrix[a * dim + b] += kernel_values[j] * volumes[j] / total * x * y
+        for a in range(dim):
+            trace += matrix[a * dim + a]
+            target[a] = sign * (lift_factor * lift[a] / support - centre[a])
+        for a in range(dim):
+            matrix[a * dim + a] += ridge
+            if guarded and not matrix[a * dim + a] > 1e-8 * trace:
+                return SINGULAR
+            for b in range(a + 1, dim):
+                factor = matrix[b * dim + a] / matrix[a * dim + a]
+                for c in range(a, dim):
+                    matrix[b * dim + c] -= factor * matrix[a * dim + c]
+                target[b] -= factor * target[a]
+        for k in range(dim):
+            a = dim - 1 - k
+            for b in range(a + 1, dim):
+                target[a] -= matrix[a * dim + b] * target[b]
+            target[a] /= matrix[a * dim + a]
+        for j in range(n):
+            out[(j + shift) % n] = kernel_values[j] * volumes[j] / total
+            for a in range(dim):
+                x = offsets[j, a] / support - centre[a]
+                out[(j + shift) % n] += kernel_values[j] * volumes[j] / total * x * target[a]
+        return OK
+
+    return weights
+
+
+LINEAR = {"reproduces_degree": 1, "fewest_points": (3, 4)}
+
+
+@wrong("a sign", "linear_reproduction", **LINEAR)
+def sign(kernel, dim):
+    return first_order(kernel, dim, sign=-1.0)
+
+
+@wrong("d instead of 2d", "linear_reproduction", **LINEAR, evaluation_point=EvaluationPoint.EXTRAPOLATED)
+def half_the_lift(kernel, dim):
+    return first_order(kernel, dim, lift_factor=0.5)
+
+
+@wrong("a silent wrong solve for two points", "linear_reproduction", **LINEAR)
+def silent_solve(kernel, dim):
+    return first_order(kernel, dim, ridge=1e-14, guarded=False)
+
+
+@wrong("two neighbours answered with OK", "fewest_points", **LINEAR)
+def dishonest_solve(kernel, dim):
+    return first_order(kernel, dim, ridge=1e-14, guarded=False)
+
+
+@wrong("unlimited weights", "bounded_weights", **LINEAR)
+def unlimited(kernel, dim):
+    return first_order(kernel, dim, ridge=1e-14, guarded=False)
+
+
+@wrong("weights off by one neighbour", "linear_reproduction", **LINEAR)
+def off_by_one(kernel, dim):
+    return first_order(kernel, dim, shift=1)
+
+
+@wrong("linear claimed, constant delivered", "linear_reproduction", **LINEAR)
+def constant_only(kernel, dim):
+    return first_order(kernel, dim, sign=0.0)
+
+
+@wrong("quadratic claimed, linear delivered", "quadratic_reproduction", reproduces_degree=2, fewest_points=(3, 4))
+def linear_only(kernel, dim):
+    return first_order(kernel, dim)
+
+
+@wrong("positive weights claimed of least squares", "non_negative", **LINEAR, non_negative=True)
+def negative(kernel, dim):
+    return first_order(kernel, dim)
+
+
+@wrong("a restricted range claimed of least squares", "range_restricted", **LINEAR, **AVERAGE)
+def out_of_range(kernel, dim):
+    return first_order(kernel, dim)
+
+
+@wrong("independence of volumes claimed of least squares", "volume_independence", **LINEAR, volume_independent=True)
+def uses_volumes(kernel, dim):
+    return first_order(kernel, dim)
+
+
+# broken symmetries
+
+
+@wrong("the exponent of Eq. 20 as printed, in metres", "unit_independence", **SHEPARD)
+def metres_in_exponent(kernel, dim):
+    return improved_shepard(kernel, dim, exponent_scale=10.0)
+
+
+@wrong("an absolute softening length", "scale_invariance", **AVERAGE, volume_independent=True)
+def softening(kernel, dim):
+    return improved_shepard(kernel, dim, softening=1e-3)
+
+
+def skewed(kernel, dim, metric=0, tilt=0.0, first=0.0):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        total = 0.0
+        for j in range(out.shape[0]):
+            s = distances[j] / support
+            if metric == 1:
+                s = 0.0
+                for a in range(dim):
+                    s += abs(offsets[j, a]) / support
+            out[j] = math.exp(-9.0 * s * s) * (1.0 + tilt * offsets[j, 0] / support)
+            if j == 0:
+                out[j] *= 1.0 + first
+            total += out[j]
+        for j in range(out.shape[0]):
+            out[j] /= total
+        return OK
+
+    return weights
+
+
+@wrong("distance measured along the axes", "rotation_invariance", **AVERAGE, volume_independent=True)
+def taxicab(kernel, dim):
+    return skewed(kernel, dim, metric=1)
+
+
+@wrong("a preference for one side", "reflection_invariance", **AVERAGE, volume_independent=True)
+def one_sided(kernel, dim):
+    return skewed(kernel, dim, tilt=0.3)
+
+
+@wrong("a hidden dependence on particle order", "permutation_invariance", **AVERAGE, volume_independent=True)
+def first_counts_more(kernel, dim):
+    return skewed(kernel, dim, first=1e-6)
+
+
+@wrong("the last neighbour left out", "permutation_invariance", **AVERAGE)
+def last_left_out(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        n = out.shape[0]
+        out[n - 1] = 0.0 if n > 1 else 1.0
+        for j in range(n - 1):
+            out[j] = 1.0 / (n - 1)
+        return OK
+
+    return weights
+
+
+@wrong("float32 distances", "rotation_invariance", **AVERAGE, volume_independent=True)
+def single_precision_distances(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        total = 0.0
+        for j in range(out.shape[0]):
+            s = np.float32(0.0)
+            for a in range(dim):
+                s += np.float32(offsets[j, a] / support) ** 2
+            out[j] = math.exp(-9.0 * s)
+            total += out[j]
+        for j in range(out.shape[0]):
+            out[j] /= total
+        return OK
+
+    return weights
+
+
+@wrong("a jump at the nearest particle, continuity claimed", "continuity", **SHEPARD)
+def nearest_only(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        nearest = 0
+        for j in range(out.shape[0]):
+            out[j] = 0.0
+            if distances[j] < distances[nearest]:
+                nearest = j
+        out[nearest] = 1.0
+        return OK
+
+    return weights
+
+
+@wrong("softened distances, interpolation claimed", "interpolates_particles", **SHEPARD)
+def blurred(kernel, dim):
+    return skewed(kernel, dim)
+
+
+# bad manners
+
+
+@wrong("adds to what out held before", "repeatable", **AVERAGE)
+def stale_out(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        for j in range(out.shape[0]):
+            out[j] += 1.0 / out.shape[0]
+        return OK
+
+    return weights
+
+
+@wrong("writes behind out", "writes_only_out", **AVERAGE)
+def writes_behind(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        n = out.shape[0]
+        for j in range(n + 1):
+            out[j] = 1.0 / n
+        return OK
+
+    return weights
+
+
+@wrong("changes its arguments", "writes_only_out", **AVERAGE)
+def changes_arguments(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        total = 0.0
+        for j in range(out.shape[0]):
+            volumes[j] *= kernel_values[j]
+            total += volumes[j]
+        if total <= 0.0:
+            return TOO_FEW
+        for j in range(out.shape[0]):
+            out[j] = volumes[j] / total
+        return OK
+
+    return weights
+
+
+@wrong("allocates", "no_allocation", **AVERAGE)
+def allocates(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        scratch = np.zeros(out.shape[0])
+        for j in range(out.shape[0]):
+            scratch[j] = 1.0 + distances[j]
+        total = scratch.sum()
+        for j in range(out.shape[0]):
+            out[j] = scratch[j] / total
+        return OK
+
+    return weights
+
+
+@wrong("integers that overflow when compiled", "plain_python_agrees", **AVERAGE)
+def overflows(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        total = 0.0
+        for j in range(out.shape[0]):
+            big = (j + 1) * 4611686018427387904
+            out[j] = 1.0 if big > 0 else 2.0
+            total += out[j]
+        for j in range(out.shape[0]):
+            out[j] /= total
+        return OK
+
+    return weights
+
+
+@wrong("does not compile", "compiles", **AVERAGE)
+def does_not_compile(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        out[:] = statistics.mean(distances)
+        return OK
+
+    return weights
+
+
+@wrong("returns nothing", "compiles", **AVERAGE)
+def returns_nothing(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        for j in range(out.shape[0]):
+            out[j] = 1.0 / out.shape[0]
+
+    return weights
+
+
+@wrong("never OK", "fewest_points", **AVERAGE)
+def never_ok(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        return SINGULAR
+
+    return weights
+
+
+@wrong("reads the neighbour behind the last", "solver_agrees", **AVERAGE)
+def reads_behind(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        n = out.shape[0]
+        total = 0.0
+        for j in range(n):
+            out[j] = volumes[j + 1]
+            total += out[j]
+        for j in range(n):
+            out[j] /= total
+        return OK
+
+    return weights
+
+
+@wrong("a count of points for one dimension only", "traits", fewest_points=3)
+def malformed_trait(kernel, dim):
+    return skewed(kernel, dim)
+
+
+@wrong("contradicting traits", "traits", range_restricted=True)
+def contradiction(kernel, dim):
+    return skewed(kernel, dim)
+
+
+def check_called(case, name):
+    return next(check for check in checks_of(case.method) if check.name == name)
+
+
+def test_there_are_enough_of_them():
+    assert len(CASES) >= 25
+
+
+@pytest.mark.parametrize("mistake", CASES)
+def test_is_caught_with_every_seed(mistake, monkeypatch):
+    case = CASES[mistake]
+    check = check_called(case, case.caught_by)
+    for seed in range(10):
+        monkeypatch.setattr(hypothesis.core, "global_force_seed", seed)
+        with pytest.raises(BrokenPromiseError) as caught:
+            check(case.method)
+    message = str(caught.value)
+    assert message.startswith("Wrong(")
+    assert len(message) > 40
+
+
+def test_the_smallest_cloud_can_be_pasted_into_a_test():
+    case = CASES["a sign"]
+    with pytest.raises(BrokenPromiseError) as caught:
+        check_called(case, "linear_reproduction")(case.method)
+    code = str(caught.value).partition("as code:")[2]
+    names = {"method": case.method}
+    exec("\n".join(line.strip() for line in code.splitlines()), names)
+    assert len(names["cloud"]) == 3
