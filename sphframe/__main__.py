@@ -1,4 +1,4 @@
-"""sphframe: ``python -m sphframe`` is the command ``sphframe``."""
+"""__main__: ``python -m sphframe`` is the command ``sphframe``."""
 
 from sphframe.cli import main
 
