@@ -42,7 +42,7 @@ def specialise(template: Callable[..., Any], parts: dict[str, Any], *, parallel:
     key = f"{fingerprint(function)}{'p' if parallel else 's'}"
     if key not in _loops:
         function.__qualname__ = f"{template.__qualname__}_{key}"
-        _loops[key] = numba.njit(parallel=parallel, cache=True, error_model="numpy", fastmath={"contract"})(function)
+        _loops[key] = numba.njit(parallel=parallel, cache=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz"})(function)
     return _loops[key]
 
 
@@ -56,7 +56,7 @@ def compile_part(function: Callable[..., Any]) -> Any:
         # hash, a loop from the disk cache may bring a namesake with other closure values, which then runs instead.
         copy = _rebind(function, {})
         copy.__qualname__ = f"{function.__qualname__}_{key}"
-        _parts[key] = numba.njit(error_model="numpy", fastmath={"contract"})(copy)
+        _parts[key] = numba.njit(error_model="numpy", fastmath={"contract", "reassoc", "nsz"})(copy)
     return _parts[key]
 
 

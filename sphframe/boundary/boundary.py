@@ -100,7 +100,7 @@ class Boundary:
         chunks = 8 * int(numba.config.NUMBA_NUM_THREADS)
         self._offsets = np.zeros((chunks, capacity, self.dim))
         self._columns = np.zeros((chunks, 4, capacity))
-        self._members = np.zeros((chunks, capacity), np.int32)
+        self._members = np.zeros((chunks, capacity), np.uint32)
         self._lift = np.zeros((chunks, self.dim))
 
     def move(self, motions: Sequence[Motion], rows: Array, driving_force: Array, density: float) -> None:

@@ -20,9 +20,9 @@ class NeighbourLists:
 
     Attributes
     ----------
-    fluid: (n, capacity) int32; row i holds ``fluid_counts[i]`` fluid neighbours, then ``ghost_counts[i]`` ghosts,
+    fluid: (n, capacity) uint32; row i holds ``fluid_counts[i]`` fluid neighbours, then ``ghost_counts[i]`` ghosts,
         as indices of rows.
-    points: (g, capacity) int32 fluid neighbours of each evaluation point, ``point_counts`` (g,) of them.
+    points: (g, capacity) uint32 fluid neighbours of each evaluation point, ``point_counts`` (g,) of them.
     """
 
     def __init__(self, dim: int, fluid_count: int, ghost_count: int, support: float, skin: float) -> None:
@@ -31,11 +31,11 @@ class NeighbourLists:
         self.skin = skin
         self.fluid_count = fluid_count
         self.ghost_count = ghost_count
-        self.fluid = np.empty((fluid_count, 0), np.int32)
-        self.fluid_counts = np.zeros(fluid_count, np.int32)
-        self.ghost_counts = np.zeros(fluid_count, np.int32)
-        self.points = np.empty((ghost_count, 0), np.int32)
-        self.point_counts = np.zeros(ghost_count, np.int32)
+        self.fluid = np.empty((fluid_count, 0), np.uint32)
+        self.fluid_counts = np.zeros(fluid_count, np.uint32)
+        self.ghost_counts = np.zeros(fluid_count, np.uint32)
+        self.points = np.empty((ghost_count, 0), np.uint32)
+        self.point_counts = np.zeros(ghost_count, np.uint32)
         self.grid = Grid(np.zeros(3), 1.0, (1, 1, 1))
         self.starts = np.zeros(2, np.int64)
         self.rebuilds = 0
@@ -74,18 +74,18 @@ class NeighbourLists:
             )  # fmt: skip
             if longest <= self.fluid.shape[1]:
                 break
-            self.fluid = np.empty((n, _capacity(longest)), np.int32)
+            self.fluid = np.empty((n, _capacity(longest)), np.uint32)
         self.points = self._around(evaluation_points, rows, self.points, self.point_counts)
         self.rebuilds += 1
 
-    def around(self, points: Array, rows: Array) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    def around(self, points: Array, rows: Array) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
         """Return lists (k, capacity) of the fluid near any ``points`` (k, dim) and their lengths (k,)."""
-        counts = np.zeros(len(points), np.int32)
-        return self._around(points, rows, np.empty((len(points), 0), np.int32), counts), counts
+        counts = np.zeros(len(points), np.uint32)
+        return self._around(points, rows, np.empty((len(points), 0), np.uint32), counts), counts
 
     def _around(
-        self, points: Array, rows: Array, lists: NDArray[np.int32], counts: NDArray[np.int32]
-    ) -> NDArray[np.int32]:
+        self, points: Array, rows: Array, lists: NDArray[np.uint32], counts: NDArray[np.uint32]
+    ) -> NDArray[np.uint32]:
         """List the fluid near ``points`` in ``lists``, or in a longer array where that is too short."""
         grid = self.grid
         while True:
@@ -95,7 +95,7 @@ class NeighbourLists:
             )  # fmt: skip
             if longest <= lists.shape[1]:
                 return lists
-            lists = np.empty((len(points), _capacity(longest)), np.int32)
+            lists = np.empty((len(points), _capacity(longest)), np.uint32)
 
 
 def _capacity(longest: int) -> int:

@@ -48,21 +48,21 @@ def density_gradient(rows, lists, counts, support, gradient_scale, gradient):  #
             if DIM == 3:
                 dz = rows[j, 2] - rows[i, 2]
                 r2 += dz * dz
-            if r2 < limit:
-                weight = -gradient_scale * GRADIENT(math.sqrt(r2) * per_h) * rows[j, 2 * DIM + 2]
-                rise = weight * (rows[j, 2 * DIM] - density)
-                wx = weight * dx
-                wy = weight * dy
-                bx += rise * dx
-                by += rise * dy
-                xx += wx * dx
-                xy += wx * dy
-                yy += wy * dy
-                if DIM == 3:
-                    bz += rise * dz
-                    xz += wx * dz
-                    yz += wy * dz
-                    zz += weight * dz * dz
+            weight = -gradient_scale * GRADIENT(math.sqrt(r2) * per_h) * rows[j, 2 * DIM + 2]
+            weight = weight if r2 < limit else 0.0  # a choice, not a branch: the loop vectorises
+            rise = weight * (rows[j, 2 * DIM] - density)
+            wx = weight * dx
+            wy = weight * dy
+            bx += rise * dx
+            by += rise * dy
+            xx += wx * dx
+            xy += wx * dy
+            yy += wy * dy
+            if DIM == 3:
+                bz += rise * dz
+                xz += wx * dz
+                yz += wy * dz
+                zz += weight * dz * dz
         if DIM == 2:
             determinant = xx * yy - xy * xy
             mean = 0.5 * (xx + yy)

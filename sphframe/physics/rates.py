@@ -54,22 +54,22 @@ def fluid_rates(  # type: ignore[no-untyped-def]
             if DIM == 3:
                 dz = rows[j, 2] - rows[i, 2]
                 r2 += dz * dz
-            if r2 < limit:
-                weight = -gradient_scale * GRADIENT(math.sqrt(r2) * per_h) * rows[j, 2 * DIM + 2]
-                approach = (rows[j, DIM] - u) * dx + (rows[j, DIM + 1] - v) * dy
-                sloped = (gx + gradient[j, 0]) * dx + (gy + gradient[j, 1]) * dy
+            weight = -gradient_scale * GRADIENT(math.sqrt(r2) * per_h) * rows[j, 2 * DIM + 2]
+            weight = weight if r2 < limit else 0.0  # a choice, not a branch: the loop vectorises
+            approach = (rows[j, DIM] - u) * dx + (rows[j, DIM + 1] - v) * dy
+            sloped = (gx + gradient[j, 0]) * dx + (gy + gradient[j, 1]) * dy
+            if DIM == 3:
+                approach += (rows[j, DIM + 2] - rows[i, DIM + 2]) * dz
+                sloped += (gradient[i, 2] + gradient[j, 2]) * dz
+            if CONTINUITY:
+                compression += weight * approach
+                diffused += weight * diffusive_flux(rows[j, 2 * DIM] - density, sloped)
+            if MOMENTUM:
+                stress = weight * pair_stress(pressure + rows[j, 2 * DIM + 1], viscosity, approach, r2)
+                fx += stress * dx
+                fy += stress * dy
                 if DIM == 3:
-                    approach += (rows[j, DIM + 2] - rows[i, DIM + 2]) * dz
-                    sloped += (gradient[i, 2] + gradient[j, 2]) * dz
-                if CONTINUITY:
-                    compression += weight * approach
-                    diffused += weight * diffusive_flux(rows[j, 2 * DIM] - density, sloped)
-                if MOMENTUM:
-                    stress = weight * pair_stress(pressure + rows[j, 2 * DIM + 1], viscosity, approach, r2)
-                    fx += stress * dx
-                    fy += stress * dy
-                    if DIM == 3:
-                        fz += stress * dz
+                    fz += stress * dz
         for k in range(fluid, fluid + ghost_counts[i]):
             j = lists[i, k]
             dx = rows[j, 0] - x
@@ -78,19 +78,19 @@ def fluid_rates(  # type: ignore[no-untyped-def]
             if DIM == 3:
                 dz = rows[j, 2] - rows[i, 2]
                 r2 += dz * dz
-            if r2 < limit:
-                weight = -gradient_scale * GRADIENT(math.sqrt(r2) * per_h) * rows[j, 2 * DIM + 2]
-                approach = (rows[j, DIM] - u) * dx + (rows[j, DIM + 1] - v) * dy
+            weight = -gradient_scale * GRADIENT(math.sqrt(r2) * per_h) * rows[j, 2 * DIM + 2]
+            weight = weight if r2 < limit else 0.0  # a choice, not a branch: the loop vectorises
+            approach = (rows[j, DIM] - u) * dx + (rows[j, DIM + 1] - v) * dy
+            if DIM == 3:
+                approach += (rows[j, DIM + 2] - rows[i, DIM + 2]) * dz
+            if CONTINUITY:
+                compression += weight * approach
+            if MOMENTUM:
+                stress = weight * pair_stress(pressure + rows[j, 2 * DIM + 1], viscosity, approach, r2)
+                fx += stress * dx
+                fy += stress * dy
                 if DIM == 3:
-                    approach += (rows[j, DIM + 2] - rows[i, DIM + 2]) * dz
-                if CONTINUITY:
-                    compression += weight * approach
-                if MOMENTUM:
-                    stress = weight * pair_stress(pressure + rows[j, 2 * DIM + 1], viscosity, approach, r2)
-                    fx += stress * dx
-                    fy += stress * dy
-                    if DIM == 3:
-                        fz += stress * dz
+                    fz += stress * dz
         rates[i, 0] = u
         rates[i, 1] = v
         if DIM == 3:
