@@ -140,6 +140,23 @@ def _verify(
     raise typer.Exit(verify(names or [], as_json=as_json))
 
 
+@app.command("new-plugin")
+def _new_plugin(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="of the method: lower-case words joined by hyphens")],
+    folder: Annotated[Path, typer.Option(help="where the folder sphframe-NAME is made")] = Path(),
+    licence: Annotated[str, typer.Option(help="BSD-3-Clause, MIT or none")] = "BSD-3-Clause",
+    author: Annotated[str, typer.Option(help="named in pyproject.toml and in the licence")] = "",
+) -> None:
+    """Start a boundary interpolation method of your own: a distribution that installs, verifies and runs."""
+    from sphframe.cli.new_plugin import new_plugin
+
+    root = new_plugin(name, folder=folder, licence=licence, author=author)
+    print(f"written: {root}\n")
+    print(f'  pip install -e "{root}[test]"')
+    print(f"  sphframe verify {name}")
+    print(f"  sphframe run dam-break --interpolator {name}")
+
+
 @app.command("doctor")
 def _doctor() -> None:
     """Check this installation: versions, threads, compiler cache, plugins."""
