@@ -15,15 +15,15 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from sphframe.testing.clouds import FAMILIES, Cloud, catalogue
     from sphframe.testing.evaluation import Outcome, evaluate
+    from sphframe.testing.neighbourhoods import FAMILIES, Cloud, catalogue
     from sphframe.testing.proof import BrokenPromiseError
     from sphframe.testing.strategies import clouds
     from sphframe.testing.suite import Check, checks_of, parametrize_with_checks
     from sphframe.testing.verification import Report, verify
 
 _HOMES = {
-    "sphframe.testing.clouds": ["FAMILIES", "Cloud", "catalogue"],
+    "sphframe.testing.neighbourhoods": ["FAMILIES", "Cloud", "catalogue"],
     "sphframe.testing.evaluation": ["Outcome", "evaluate"],
     "sphframe.testing.proof": ["BrokenPromiseError"],
     "sphframe.testing.strategies": ["clouds"],

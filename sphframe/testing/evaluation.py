@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from sphframe.boundary.operator import weights_loop
 from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint, Kernel
 from sphframe.registry import create
-from sphframe.testing.clouds import Cloud
+from sphframe.testing.neighbourhoods import Cloud
 
 __all__ = ["Evaluate", "Outcome", "evaluate", "evaluator", "extrapolates", "plain_evaluator", "title"]
 

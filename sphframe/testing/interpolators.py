@@ -13,8 +13,8 @@ from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint, Traits
 from sphframe.interfaces.traits import DRY, OK, Status
 from sphframe.registry import create
 from sphframe.specialise import compile_part
-from sphframe.testing.clouds import REGULAR, SPARSE, Cloud, build, condition
 from sphframe.testing.evaluation import Evaluate, Outcome, evaluator, extrapolates, plain_evaluator, title
+from sphframe.testing.neighbourhoods import REGULAR, SPARSE, Cloud, build, condition
 from sphframe.testing.proof import BrokenPromiseError, prove
 
 Array = NDArray[np.float64]

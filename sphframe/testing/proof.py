@@ -12,8 +12,8 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis.errors import Flaky
 
 from sphframe.interfaces import BoundaryInterpolator
-from sphframe.testing.clouds import ALL, Cloud, catalogue
 from sphframe.testing.evaluation import extrapolates, title
+from sphframe.testing.neighbourhoods import ALL, Cloud, catalogue
 from sphframe.testing.strategies import clouds
 
 __all__ = ["BrokenPromiseError", "Property", "prove", "smallest"]

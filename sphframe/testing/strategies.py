@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from hypothesis import strategies as st
 
-from sphframe.testing.clouds import ALL, Cloud, build
+from sphframe.testing.neighbourhoods import ALL, Cloud, build
 
 __all__ = ["clouds"]
 
