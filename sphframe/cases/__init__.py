@@ -1,6 +1,6 @@
 """Cases: what to simulate, as frozen and validated parameters in SI units; built-in, from a TOML file, or in Python."""
 
-from sphframe.cases.case import Case, Component, Derived, Diagnostic, Fields, Gauge, Probe, Scene, quantity
+from sphframe.cases.case import Case, Component, Derived, Diagnostic, Fields, Gauge, Guards, Probe, Scene, quantity
 from sphframe.cases.checks import CaseWarning, check_case
 from sphframe.cases.custom import Custom
 from sphframe.cases.load import load_case, read_toml
@@ -14,6 +14,7 @@ __all__ = [
     "Diagnostic",
     "Fields",
     "Gauge",
+    "Guards",
     "Probe",
     "Scene",
     "check_case",

@@ -14,7 +14,7 @@ from sphframe.errors import InputError
 from sphframe.geometry import Region, Wall
 from sphframe.interfaces import RigidBody
 
-__all__ = ["Case", "Component", "Derived", "Diagnostic", "Fields", "Gauge", "Probe", "Scene", "quantity"]
+__all__ = ["Case", "Component", "Derived", "Diagnostic", "Fields", "Gauge", "Guards", "Probe", "Scene", "quantity"]
 
 Array = NDArray[np.float64]
 
@@ -47,6 +47,29 @@ class Derived:
 
     text: str
     function: Callable[[Any], Any]
+
+
+class Guards(BaseModel):
+    """What a run does with what is not physical. NaN and a vanishing time step always stop it."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    domain: Literal["stop", "remove"] = "stop"
+    """at a particle that has left the domain: stop, or remove and count it"""
+    density: Literal["stop", "count"] = "stop"
+    """at a density outside the band: stop, or count the particles"""
+    density_band: tuple[float, float] = (0.5, 1.5)
+    """lowest and highest density over the reference density"""
+    fallbacks: Literal["stop", "count"] = "count"
+    """at a share of wet ghosts above the limit that use the interpolator's fallback: stop, or only count them"""
+    fallback_limit: float = Field(default=0.5, ge=0, le=1)
+
+    @model_validator(mode="after")
+    def _band_holds_the_reference(self) -> Self:
+        low, high = self.density_band
+        if not 0.0 <= low < 1.0 < high:
+            raise ValueError("density_band must hold 1, the reference density, such as [0.5, 1.5]")
+        return self
 
 
 def quantity(default: Any, unit: str, description: str, **bounds: Any) -> Any:
@@ -94,12 +117,16 @@ class Gauge(BaseModel):
 
 @dataclass(frozen=True)
 class Diagnostic:
-    """A number computed from the fluid whenever the probes are sampled."""
+    """A number computed from the fluid whenever the probes are sampled.
+
+    With a ``body``, the function sees the fluid's positions in the frame in which that body was drawn.
+    """
 
     name: str
     unit: str
     long_name: str
     function: Callable[[Fields], float]
+    body: str | None = None
 
 
 @dataclass(frozen=True)
@@ -152,6 +179,7 @@ class Case(BaseModel, ABC):
     kernel: Component = quantity(Component(name="gaussian"), "1", "smoothing kernel")
     equation_of_state: Component = quantity(Component(name="linear"), "1", "equation of state")
     integrator: Component = quantity(Component(name="symplectic"), "1", "time integration scheme")
+    guards: Guards = quantity(Guards(), "1", "what a run does with what is not physical")
     time_step: float | None = quantity(None, "s", "fixed time step; by default adaptive by the Courant number", gt=0)
     courant_number: float | None = quantity(
         None, "1", "(c0 + |u|max) dt / h of the adaptive time step; by default the integrator's own", gt=0

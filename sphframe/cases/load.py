@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from pydantic import BaseModel
+
 from sphframe.cases.case import Case, Component
 from sphframe.cases.checks import check_case
 from sphframe.errors import InputError
@@ -163,7 +165,7 @@ def _as_table(model: type[Case], name: str, parameters: Mapping[str, Any]) -> An
     if name not in model.model_fields:
         raise InputError(f"{name} is not a parameter{did_you_mean(name, model.model_fields)}")
     value = parameters.get(name, model.model_fields[name].default)
-    if isinstance(value, Component):
+    if isinstance(value, BaseModel):
         return value.model_dump()
     return {"name": value} if isinstance(value, str) and model.model_fields[name].annotation is Component else value
 

@@ -2,6 +2,7 @@
 
 import math
 import time as clock
+from collections.abc import Mapping
 from typing import Any
 
 import numba
@@ -13,11 +14,13 @@ from sphframe.boundary.boundary import Boundary
 from sphframe.cases.case import Case, Fields, Scene
 from sphframe.errors import InputError, SimulationError
 from sphframe.geometry import lattice, wall_panels
-from sphframe.interfaces import CompiledKernel, Motion, Status
+from sphframe.interfaces import CompiledKernel, EquationOfState, Kernel, Motion, Status
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
 from sphframe.physics import sample_points
 from sphframe.registry import create
+from sphframe.simulation.guards import check_promises, check_time_step, naming_component, watch
+from sphframe.simulation.interruption import deferred_interruption
 from sphframe.simulation.probes import Gauges, PressureProbes
 from sphframe.simulation.rest_state import rest_pressure
 from sphframe.simulation.system import FluidSystem, Parameters
@@ -43,6 +46,10 @@ class Simulation:
     ----------
     case, scene: what is simulated. ``components``: the kernel, equation of state, interpolator and integrator.
     time: s; ``step``: number of steps made; ``time_step``: the last one, s.
+    particle_count: fluid particles at the start; ``fluid_count``: those that are left.
+    densities_outside: particles whose density lies outside the band of the case's guards.
+    samples, frames: how many of each the listeners have been told of.
+    between_steps: whether the state is one that :meth:`state` may save; false while a step is under way.
     sound_speed: m/s; ``smoothing_length``, ``support``: m.
 
     Raises
@@ -63,8 +70,12 @@ class Simulation:
             ),
             "integrator": create("integrators", case.integrator.name, **case.integrator.options),
         }
-        dim, spacing = case.dimension, case.particle_spacing
         shape, state = self.components["kernel"], self.components["equation_of_state"]
+        with naming_component(case, running=False):
+            self._set_up(shape, state)
+
+    def _set_up(self, shape: Kernel, state: EquationOfState) -> None:
+        case, dim, spacing = self.case, self.case.dimension, self.case.particle_spacing
         kernel = CompiledKernel(
             compile_part(shape.value_function()),
             compile_part(shape.gradient_function()),
@@ -98,12 +109,14 @@ class Simulation:
             no_slip=case.slip == "no",
             balanced=case.hydrostatic_lift == "balanced",
         )
-        self.fluid_count, self.ghost_count = len(position), self.boundary.count
-        self.lists = NeighbourLists(dim, self.fluid_count, self.ghost_count, self.support, SKIN * self.support)
+        self.particle_count = self.fluid_count = len(position)
+        self.ghost_count = self.boundary.count
+        self.lists = self._new_lists()
         rows = self._initial_rows(position, compile_part(state.density_function()))
         self.system = FluidSystem(rows, self.fluid_count, self.boundary, self.lists, kernel, state, self.parameters)
         self._ids = np.arange(self.fluid_count)
         self._reference = np.zeros((self.fluid_count, dim))
+        self._speed = self._moved = 0.0
         self._stale = True
         self._lower, self._upper = (np.array(corner, dtype=np.float64) for corner in self.scene.domain)
         sample = specialise(sample_points, {"DIM": dim, "SUPPORT": kernel.support, "VALUE": kernel.value})
@@ -116,10 +129,14 @@ class Simulation:
         self.step = 0
         self.time_step = 0.0
         self.wall_clock = 0.0
+        self.densities_outside = 0
+        self.samples = self.frames = 0
+        self.between_steps = True
         self.system.move_walls(0.0)
         self._find_neighbours()
         self.system.evaluate(0.0)
         self.initial_energy = sum(self.energies().values())
+        self._watch()
 
     def _initial_rows(self, position: Array, density: Any) -> Array:
         case, columns = self.case, self.columns
@@ -149,38 +166,34 @@ class Simulation:
 
         Raises
         ------
-        SimulationError: when a particle's state is not finite or it has left the domain, or the time step collapses.
+        SimulationError: when the guards find something wrong in the new state, or a component fails.
         """
         began = clock.perf_counter()
-        speed, moved = self._watch()
-        self.time_step = self._next_time_step(speed)
-        travelled = max(moved, self.boundary.displacement) + 1.2 * speed * self.time_step
-        if 2.0 * travelled > self.lists.skin:
-            self._find_neighbours()
-        self.components["integrator"].step(self.system, self.time, self.time_step)
-        self.time = min(self.time + self.time_step, self.case.until)
-        self.step += 1
-        self._stale = True
-        self.wall_clock += clock.perf_counter() - began
+        try:
+            self.time_step = self._next_time_step(self._speed)
+            travelled = max(self._moved, self.boundary.displacement) + 1.2 * self._speed * self.time_step
+            if 2.0 * travelled > self.lists.skin:
+                self._find_neighbours()
+            self.between_steps = False
+            with naming_component(self.case, running=True):
+                self.components["integrator"].step(self.system, self.time, self.time_step)
+            self.time = min(self.time + self.time_step, self.case.until)
+            self.step += 1
+            self._stale = True
+            self._watch()
+            self.between_steps = True
+        except SimulationError as error:
+            error.time, error.step = self.time, self.step
+            raise
+        finally:
+            self.wall_clock += clock.perf_counter() - began
 
-    def _watch(self) -> tuple[float, float]:
-        """Largest speed and largest displacement since the neighbour search; stop where a particle went astray."""
-        speed2, moved2, astray = _watch_particles(
-            self.system.rows, self._reference, self.case.dimension, self._lower, self._upper
-        )
-        if astray < self.fluid_count:
-            row = self.system.rows[astray]
-            place = tuple(float(x) for x in row[self.columns.position])
-            what = "has left the domain" if np.all(np.isfinite(row)) else "has a state that is not finite"
-            raise SimulationError(
-                f"particle {self._ids[astray]} {what} (velocity {row[self.columns.velocity]} m/s, density"
-                f" {row[self.columns.density]:.6g} kg/m^3); likely causes: a time step above the stability limit"
-                " (set a smaller courant_number or time_step), walls that leak, or a sound speed too low for the flow",
-                time=self.time,
-                step=self.step,
-                place=place,
-            )
-        return math.sqrt(speed2), math.sqrt(moved2)
+    def _watch(self) -> None:
+        """Look at the new state; remove the particles that have left the domain, if the case says so."""
+        seen = watch(self.system, self._reference, self._ids, self.case, self._lower, self._upper)
+        self._speed, self._moved, self.densities_outside = seen.speed, seen.moved, seen.densities
+        if seen.outside is not None:
+            self._remove(seen.outside)
 
     def _next_time_step(self, speed: float) -> float:
         case, integrator = self.case, self.components["integrator"]
@@ -188,16 +201,94 @@ class Simulation:
             step = case.time_step
         else:
             courant = case.courant_number or integrator.courant_number
-            step = min(courant * self.smoothing_length / (self.sound_speed + speed), case.probe_interval)
-            if step < 1e-6 * self.smoothing_length / self.sound_speed:
-                raise SimulationError(
-                    f"the time step has collapsed to {step:.3g} s at a speed of {speed:.3g} m/s; the flow is no longer"
-                    " physical: refine the particle spacing or raise the sound speed",
-                    time=self.time,
-                    step=self.step,
-                )
+            step = courant * self.smoothing_length / (self.sound_speed + speed)
+            check_time_step(step, courant * self.smoothing_length / self.sound_speed, speed)
+            step = min(step, case.probe_interval)
         left = case.until - self.time
         return left if left < 1.0000001 * step else step
+
+    def _remove(self, gone: NDArray[np.bool_]) -> None:
+        """Go on without the particles that are ``gone`` (n,)."""
+        if np.all(gone):
+            raise SimulationError("all particles have left the domain; draw walls that hold the fluid")
+        kept = ~gone
+        self._resize(int(kept.sum()))
+        self.system.keep(kept, self.lists)
+        self._ids = self._ids[kept]
+        self._find_neighbours()
+
+    def _resize(self, fluid_count: int) -> None:
+        self.fluid_count = fluid_count
+        self.lists = self._new_lists()
+        self._reference = np.zeros((fluid_count, self.case.dimension))
+
+    def _new_lists(self) -> NeighbourLists:
+        return NeighbourLists(
+            self.case.dimension, self.fluid_count, self.ghost_count, self.support, SKIN * self.support
+        )
+
+    @property
+    def removed_count(self) -> int:
+        """Number of particles that have left the domain and were removed."""
+        return self.particle_count - self.fluid_count
+
+    # what restarts a run
+
+    def state(self) -> dict[str, Array]:
+        """Return copies of all that the run depends on from here on, by name.
+
+        A run that is restored from it has the same bits as one that goes on. The neighbour lists are not among it, but
+        the positions that they were made for are: so a state can be taken after any step, and taking it changes
+        nothing.
+        """
+        clocks = [self.time, self.time_step, self.wall_clock, self.initial_energy, self._speed, self._moved]
+        counters = [self.step, self.samples, self.frames, self.densities_outside]
+        parts = {"system": self.system.state(), "boundary": self.boundary.state()}
+        return {
+            "clocks": np.array(clocks),
+            "counters": np.array(counters, np.int64),
+            "ids": self._ids.copy(),
+            "reference": self._reference.copy(),
+            **{f"{part}.{name}": array for part, arrays in parts.items() for name, array in arrays.items()},
+        }
+
+    def restore(self, state: Mapping[str, Array]) -> None:
+        """Continue from what :meth:`state` of a simulation of the same case returned.
+
+        Raises
+        ------
+        InputError: when the state belongs to another case.
+        """
+        count = len(state["ids"])
+        own = {name: array.shape for name, array in self.state().items()}
+        wanted = {name: _with_count(shape, name, count, self.ghost_count) for name, shape in own.items()}
+        if {name: array.shape for name, array in state.items()} != wanted or not 0 < count <= self.particle_count:
+            raise InputError("the saved state belongs to another case: its particles, walls or bodies differ")
+        if count != self.fluid_count:
+            kept = np.arange(self.fluid_count) < count
+            self._resize(count)
+            self.system.keep(kept, self.lists)
+        parts: dict[str, dict[str, Array]] = {"system": {}, "boundary": {}}
+        for name, array in state.items():
+            part, dot, inner = name.partition(".")
+            if dot:
+                parts[part][inner] = array
+        self.boundary.restore(parts["boundary"])
+        self._ids = np.array(state["ids"])
+        self._reference = np.array(state["reference"])
+        rows, n = self.system.rows, self.fluid_count
+        ghosts, points = self.boundary.remembered
+        rows[:n, self.columns.position] = self._reference
+        rows[n:, self.columns.position] = ghosts
+        self.lists.sort(rows)  # they are in order, but the grid is wanted
+        self.lists.build(rows, points)
+        self.system.restore(parts["system"])
+        self.time, self.time_step, self.wall_clock, self.initial_energy, self._speed, self._moved = (
+            float(value) for value in state["clocks"]
+        )
+        self.step, self.samples, self.frames, self.densities_outside = (int(value) for value in state["counters"])
+        self._stale = True
+        self.between_steps = True
 
     def _find_neighbours(self) -> None:
         """Put the particles in spatial order and list their neighbours."""
@@ -222,20 +313,24 @@ class Simulation:
         self._refresh()
         fluid, columns = self.system.rows[: self.fluid_count], self.columns
         return Fields(
-            fluid[:, columns.position], fluid[:, columns.velocity], fluid[:, columns.density], fluid[:, columns.pressure]
+            fluid[:, columns.position],
+            fluid[:, columns.velocity],
+            fluid[:, columns.density],
+            fluid[:, columns.pressure],
         )
 
     def fields(self) -> Fields:
-        """Copies of the fluid's fields in the particles' original order."""
-        back = np.empty_like(self._ids)
-        back[self._ids] = np.arange(self.fluid_count)
-        return Fields(*(field[back] for field in self._fluid()))
+        """Copies of the fluid's fields in the particles' original order; NaN for removed particles."""
+        return Fields(*map(self._in_original_order, self._fluid()))
 
     def masses(self) -> Array:
-        """Mass of each particle in the original order, kg (per metre of width in 2-D)."""
-        masses = np.empty(self.fluid_count)
-        masses[self._ids] = self.system.rows[: self.fluid_count, self.columns.mass]
-        return masses
+        """Mass of each particle in the original order, kg (per metre of width in 2-D); NaN for removed particles."""
+        return self._in_original_order(self.system.rows[: self.fluid_count, self.columns.mass])
+
+    def _in_original_order(self, values: Array) -> Array:
+        ordered = np.full((self.particle_count, *values.shape[1:]), np.nan)
+        ordered[self._ids] = values
+        return ordered
 
     @property
     def ghosts(self) -> Boundary:
@@ -289,7 +384,15 @@ class Simulation:
     def diagnostics(self) -> dict[str, float]:
         """The case's own diagnostics."""
         fields = self._fluid()
-        return {diagnostic.name: diagnostic.function(fields) for diagnostic in self.scene.diagnostics}
+        return {d.name: d.function(self._seen_from(d.body, fields)) for d in self.scene.diagnostics}
+
+    def _seen_from(self, body: str | None, fields: Fields) -> Fields:
+        """Put positions into the frame in which ``body`` was drawn."""
+        if body is None:
+            return fields
+        index = list(self.boundary.bodies).index(body)
+        position = _in_frame(fields.position, self.system.motions[index], self.boundary.centres[index])
+        return fields._replace(position=position)
 
     def particles_outside(self) -> int:
         """Number of particles behind a wall."""
@@ -312,7 +415,10 @@ class Simulation:
         return dict(zip(self.boundary.bodies, self.system.motions, strict=True))
 
     def wall_forces(self) -> dict[str, tuple[Array, Array]]:
-        """Force on each wall, N (per metre of width in 2-D), by the ghosts' reaction and by integrated pressure."""
+        """Force on each wall, N (per metre of width in 2-D), by the ghosts' reaction and by integrated pressure.
+
+        Above the water, where the kernel average still reaches it, the lifted pressure is negative: it is left out.
+        """
         self._refresh()
         self.system.find_loads()
         centre, area = self._panels.centre.copy(), self._panels.area.copy()
@@ -322,7 +428,8 @@ class Simulation:
                 motion, pivot = self.system.motions[body], self.boundary.centres[body]
                 centre[own] = _from_frame(centre[own], motion, pivot)
                 area[own] = _from_frame(area[own], motion, None)
-        pressure, _ = self.sample(centre)
+        pressure, filling = self.sample(centre)
+        pressure[(filling < 0.4) & (pressure < 0.0)] = 0.0  # within the water a wall's filling is one half
         forces = pressure[:, None] * area
         return {
             wall.name: (
@@ -352,24 +459,33 @@ class Simulation:
         SimulationError: when the run goes wrong. Listeners are told of any error before it leaves here.
         """
         hook = manager.hook
+        with deferred_interruption() as interruption:
+            try:
+                hook.sphframe_run_started(simulation=self)
+                while True:
+                    if self._is_due(self.samples, self.case.probe_interval):
+                        hook.sphframe_probes_due(simulation=self)
+                        self.samples += 1
+                    if self._is_due(self.frames, self.case.frame_interval):
+                        self._check_promises()
+                        hook.sphframe_frame_due(simulation=self)
+                        self.frames += 1
+                    if self.time >= self.case.until:
+                        break
+                    self.advance()
+                    hook.sphframe_step_completed(simulation=self)
+                    interruption.raise_if_asked()
+            except BaseException as error:
+                hook.sphframe_run_failed(simulation=self, error=error)
+                raise
+            hook.sphframe_run_finished(simulation=self)
+
+    def _check_promises(self) -> None:
         try:
-            frames = probes = 0
-            hook.sphframe_run_started(simulation=self)
-            while True:
-                if self._is_due(probes, self.case.probe_interval):
-                    hook.sphframe_probes_due(simulation=self)
-                    probes += 1
-                if self._is_due(frames, self.case.frame_interval):
-                    hook.sphframe_frame_due(simulation=self)
-                    frames += 1
-                if self.time >= self.case.until:
-                    break
-                self.advance()
-                hook.sphframe_step_completed(simulation=self)
-        except BaseException as error:
-            hook.sphframe_run_failed(simulation=self, error=error)
+            check_promises(self.system, self.components["interpolator"], self.components["kernel"], self.case)
+        except SimulationError as error:
+            error.time, error.step = self.time, self.step
             raise
-        hook.sphframe_run_finished(simulation=self)
 
     def _is_due(self, number: int, interval: float) -> bool:
         return self.time >= number * interval - 1e-9 * interval
@@ -420,23 +536,8 @@ def _in_frame(position: Array, motion: Motion, centre: Array) -> Array:
     return turned + centre
 
 
-@numba.njit(parallel=True, cache=True)
-def _watch_particles(rows, reference, dim, lower, upper):  # type: ignore[no-untyped-def]
-    """Return the largest squared speed and displacement, and the first row that is not finite or outside the box."""
-    speed2 = 0.0
-    moved2 = 0.0
-    astray = reference.shape[0]
-    for i in numba.prange(reference.shape[0]):
-        speed = 0.0
-        moved = 0.0
-        fine = math.isfinite(rows[i, 2 * dim])
-        for k in range(dim):
-            speed += rows[i, dim + k] ** 2
-            moved += (rows[i, k] - reference[i, k]) ** 2
-            fine = fine and rows[i, k] >= lower[k] and rows[i, k] <= upper[k]
-        fine = fine and math.isfinite(speed)
-        if not fine:
-            astray = min(astray, i)
-        speed2 = max(speed2, speed)
-        moved2 = max(moved2, moved)
-    return speed2, moved2, astray
+def _with_count(shape: tuple[int, ...], name: str, count: int, ghosts: int) -> tuple[int, ...]:
+    """Return the shape that an array of the state has with ``count`` fluid particles."""
+    if name == "system.rows":
+        return (count + ghosts, *shape[1:])
+    return (count, *shape[1:]) if name in ("ids", "reference", "system.rates") else shape

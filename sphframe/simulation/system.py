@@ -3,6 +3,7 @@
 The order of things within one evaluation reads from top to bottom in :meth:`FluidSystem.evaluate`.
 """
 
+from collections.abc import Mapping
 from typing import Any
 
 import numba
@@ -10,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sphframe.boundary.boundary import Boundary
-from sphframe.interfaces import CompiledKernel, EquationOfState, Motion, System
+from sphframe.errors import SimulationError
+from sphframe.interfaces import CompiledKernel, EquationOfState, Motion, RigidBody, System
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
 from sphframe.physics import density_gradient, fluid_rates, update_pressure, wall_reaction
@@ -69,16 +71,10 @@ class FluidSystem(System):
         parameters: Parameters,
     ) -> None:
         dim = parameters.dim
-        self.rows = rows
-        self.fluid_count = fluid_count
         self.boundary = boundary
-        self.lists = lists
         self.parameters = parameters
         self.columns = Columns(dim)
-        self.rates = np.zeros((fluid_count, 2 * dim + 1))
-        self.gradient = np.zeros((fluid_count, dim))
-        self._start = np.zeros_like(self.rates)
-        self._total = np.zeros_like(self.rates)
+        self._hold_fluid(rows, np.zeros((fluid_count, 2 * dim + 1)), lists)
         bodies = len(boundary.bodies)
         self.body_position = np.zeros((bodies, 3))
         self.body_velocity = np.zeros((bodies, 3))
@@ -101,6 +97,40 @@ class FluidSystem(System):
             for c, m in ((True, True), (True, False), (False, True))
         )
         self._wall_reaction = specialise(wall_reaction, {**parts, "GRADIENT": kernel.gradient})
+
+    def _hold_fluid(self, rows: Array, rates: Array, lists: NeighbourLists) -> None:
+        self.rows, self.rates, self.lists = rows, rates, lists
+        self.fluid_count = len(rates)
+        self.gradient = np.zeros((self.fluid_count, self.parameters.dim))
+        self._start = np.zeros_like(rates)
+        self._total = np.zeros_like(rates)
+
+    def keep(self, kept: NDArray[np.bool_], lists: NeighbourLists) -> None:
+        """Go on with the fluid particles that are ``kept`` (n,) and with new ``lists`` for that many."""
+        n = self.fluid_count
+        self._hold_fluid(np.vstack([self.rows[:n][kept], self.rows[n:]]), self.rates[kept], lists)
+
+    def state(self) -> dict[str, Array]:
+        """Return copies of all that the next step depends on, by name."""
+        return {
+            "rows": self.rows.copy(),
+            "rates": self.rates.copy(),
+            "loads": self.loads.copy(),
+            "body_position": self.body_position.copy(),
+            "body_velocity": self.body_velocity.copy(),
+            "body_rates": self._body_rates.copy(),
+            "motions": np.array(self.motions).reshape(-1, 3, 3),
+        }
+
+    def restore(self, state: Mapping[str, Array]) -> None:
+        """Continue from what :meth:`state` returned, with as many particles as there are now."""
+        self.rows[:] = state["rows"]
+        self.rates[:] = state["rates"]
+        self.loads[:] = state["loads"]
+        self.body_position[:] = state["body_position"]
+        self.body_velocity[:] = state["body_velocity"]
+        self._body_rates[:] = state["body_rates"]
+        self.motions[:] = [Motion(*motion.copy()) for motion in state["motions"]]
 
     def evaluate(self, time: float) -> None:
         """Compute all rates of the present state at ``time``."""
@@ -128,8 +158,11 @@ class FluidSystem(System):
         self.find_body_rates(time)
 
     def move_walls(self, time: float) -> None:
-        """Carry the ghosts to where the bodies are; their accelerations use the loads of the evaluation before."""
-        self._ask_bodies(time)
+        """Carry the ghosts to where the bodies are; bodies under load keep the acceleration of the evaluation before."""
+        for k, body in enumerate(self.boundary.bodies.values()):
+            motion = self._ask_body(time, k, body)
+            kept = self.motions[k].acceleration if body.needs_load else motion.acceleration
+            self.motions[k] = motion._replace(acceleration=kept)
         p = self.parameters
         self.boundary.move(self.motions, self.rows[self.fluid_count :], self._driving_force, p.reference_density)
 
@@ -170,7 +203,8 @@ class FluidSystem(System):
                 centres[wall] = boundary.centres[body] + self.motions[body].position[: p.dim]
         self._wall_reaction(
             self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, boundary.wall,
-            centres, p.support, p.gradient_scale, p.viscosity, self._partial_loads, self.loads,
+            *boundary.corner_shares(self.motions), centres, p.support, p.gradient_scale, p.viscosity,
+            self._partial_loads, self.loads,
         )  # fmt: skip
 
     def find_body_rates(self, time: float) -> None:
@@ -179,17 +213,27 @@ class FluidSystem(System):
             return
         if any(body.needs_load for body in self.boundary.bodies.values()):
             self.find_loads()
-            self._ask_bodies(time)
+        for k, body in enumerate(self.boundary.bodies.values()):
+            if body.needs_load:
+                motion = self._ask_body(time, k, body)
+                before = self.motions[k].acceleration
+                relaxed = before + body.relaxation * (motion.acceleration - before)
+                self.motions[k] = motion._replace(acceleration=relaxed)
         for k, motion in enumerate(self.motions):
             self._body_rates[0, k] = motion.velocity
             self._body_rates[1, k] = motion.acceleration
 
-    def _ask_bodies(self, time: float) -> None:
-        for k, body in enumerate(self.boundary.bodies.values()):
-            load = self.loads[self.boundary.wall_body == k].sum(axis=0)
+    def _ask_body(self, time: float, k: int, body: RigidBody) -> Motion:
+        load = self.loads[self.boundary.wall_body == k].sum(axis=0)
+        try:
             motion = body.motion(time, self.body_position[k], self.body_velocity[k], load)
             self.body_position[k], self.body_velocity[k] = motion.position, motion.velocity
-            self.motions[k] = motion
+        except Exception as error:
+            raise SimulationError(
+                f"body {list(self.boundary.bodies)[k]!r} failed: {type(body).__name__}.motion at t = {time:.6g} s raised"
+                f" {type(error).__name__}: {error}; mend it: it must return a Motion of three arrays of three numbers"
+            ) from error
+        return motion
 
     def hold(self) -> None:
         """Remember the state as the start of the step."""

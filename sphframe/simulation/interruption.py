@@ -1,0 +1,47 @@
+"""Simulation: Ctrl-C and SIGTERM wait for the end of the step, so that a run ends with a state that can be saved."""
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+__all__ = ["Interruption", "deferred_interruption"]
+
+
+class Interruption:
+    """Whether the run was asked to stop."""
+
+    def __init__(self) -> None:
+        self._asked = False
+
+    def ask(self, number: int, frame: Any) -> None:
+        """Handle a signal: remember the first, let the second interrupt at once."""
+        if self._asked:
+            raise KeyboardInterrupt
+        self._asked = True
+
+    def raise_if_asked(self) -> None:
+        """Raise KeyboardInterrupt if a signal has come."""
+        if self._asked:
+            raise KeyboardInterrupt
+
+
+@contextmanager
+def deferred_interruption() -> Iterator[Interruption]:
+    """Let SIGINT and SIGTERM wait until :meth:`Interruption.raise_if_asked` is called.
+
+    A second signal interrupts at once. Handlers that somebody has set are left alone, and so is everything outside the
+    main thread, where Python allows no handler.
+    """
+    interruption = Interruption()
+    before = {}
+    if threading.current_thread() is threading.main_thread():
+        for number, default in ((signal.SIGINT, signal.default_int_handler), (signal.SIGTERM, signal.SIG_DFL)):
+            if signal.getsignal(number) is default:
+                before[number] = signal.signal(number, interruption.ask)
+    try:
+        yield interruption
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
