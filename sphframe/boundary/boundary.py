@@ -6,6 +6,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from sphframe.boundary.corners import Corners
 from sphframe.boundary.ghosts import fill_ghosts
 from sphframe.boundary.movement import move_ghosts
 from sphframe.geometry import BoxWall, PolygonWall, wall_ghosts
@@ -24,6 +25,11 @@ from sphframe.specialise import compile_part, specialise
 __all__ = ["Boundary"]
 
 Array = NDArray[np.float64]
+
+_STATE = (
+    "position", "mirror", "reflection", "velocity", "acceleration", "driving", "statuses",
+    "_remembered", "_remembered_points",
+)  # fmt: skip
 
 
 class Boundary:
@@ -62,6 +68,7 @@ class Boundary:
         self.centres = np.zeros((len(names), self.dim))
         for k, body in enumerate(self.bodies.values()):
             self.centres[k, : len(body.centre)] = body.centre
+        self._corners = Corners(walls, wall_body, self.centres, 1.5 * support)
         self.drawn = drawn
         self.reflection_drawn = np.tile(-np.eye(self.dim), (len(drawn.wall), 1, 1)) if no_slip else drawn.reflection
         self.position = drawn.position.copy()
@@ -76,6 +83,7 @@ class Boundary:
         self.statuses = np.full(len(self.wall), int(Status.DRY), np.int64)
         self.displacement = 0.0
         self._remembered = self.position.copy()
+        self._remembered_points = self.points.copy()
         self._fill = specialise(
             fill_ghosts,
             {
@@ -124,10 +132,31 @@ class Boundary:
         self.driving += driving_force
         rows[:, : self.dim] = self.position
 
+    def corner_shares(self, motions: Sequence[Motion]) -> tuple[NDArray[np.int64], Array]:
+        """Other wall (g,) that answers for part of each ghost's force, or -1, and its normal (g, dim)."""
+        return self._corners.shares(self.position, self.wall, motions)
+
     def remember(self) -> None:
         """Measure :attr:`displacement` from here on."""
         self._remembered[:] = self.position
+        self._remembered_points[:] = self.points
         self.displacement = 0.0
+
+    @property
+    def remembered(self) -> tuple[Array, Array]:
+        """Ghosts and evaluation points (g, dim) at the last :meth:`remember`, m."""
+        return self._remembered, self._remembered_points
+
+    def state(self) -> dict[str, Array]:
+        """Return copies of all arrays that change during a run, by name."""
+        return {name: getattr(self, name).copy() for name in _STATE} | {"displacement": np.array(self.displacement)}
+
+    def restore(self, state: Mapping[str, Array]) -> None:
+        """Continue from what :meth:`state` returned."""
+        for name in _STATE:
+            getattr(self, name)[:] = state[name]
+        np.subtract(self.position, self.points, out=self.lifts)
+        self.displacement = float(state["displacement"])
 
     def fill(
         self,

@@ -4,8 +4,9 @@
 
     F = -sum_i V_i sum_(g in wall) [-(p_i + p_g) + alpha h c0 rho0 pi_ig] grad_i W_ig V_g,    i in fluid
 
-and its moment about the centre of the wall's body. Particles are summed in a fixed number of chunks, and the chunks in
-their order, so the result has the same bits on any number of threads.
+and its moment about the centre of the wall's body. In the corner between two walls the component of a ghost's force
+along the normal of the other wall is that wall's (see :mod:`sphframe.boundary.corners`). Particles are summed in a
+fixed number of chunks, and the chunks in their order, so the result has the same bits on any number of threads.
 
 Departs from the paper: its Eq. 29 takes a pressure difference, which is zero on a hydrostatic wall.
 """
@@ -27,12 +28,24 @@ def GRADIENT(q):  # type: ignore[no-untyped-def]  # noqa: N802
     """Stand for w'(q)/q of the kernel."""
 
 
+@numba.njit(inline="always")
+def add_load(load, row, centre, fx, fy, fz):  # type: ignore[no-untyped-def]
+    """Add a force on the particle ``row`` and, in 2-D, its moment about ``centre`` to ``load`` (3,)."""
+    load[0] += fx
+    load[1] += fy
+    if centre.shape[0] == 3:
+        load[2] += fz
+    else:
+        load[2] += (row[0] - centre[0]) * fy - (row[1] - centre[1]) * fx
+
+
 def wall_reaction(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, fluid_counts, ghost_counts, ghost_walls, centres, support, gradient_scale, viscosity,
-    partial, loads,
+    rows, fluid_count, lists, fluid_counts, ghost_counts, ghost_walls, other_walls, other_normals, centres, support,
+    gradient_scale, viscosity, partial, loads,
 ):  # fmt: skip
     """Write force and moment (walls, 3) to ``loads``: (N, N, N m) per metre in 2-D, (N, N, N) in 3-D.
 
+    ``other_walls`` (g,) and ``other_normals`` (g, dim): the walls that share corner ghosts, -1 for all other ghosts;
     ``centres`` (walls, dim) is what moments refer to; ``partial`` (chunks, walls, 3) is scratch.
     """
     limit = support * support
@@ -45,6 +58,7 @@ def wall_reaction(  # type: ignore[no-untyped-def]
                 j = lists[i, k]
                 dx = rows[j, 0] - rows[i, 0]
                 dy = rows[j, 1] - rows[i, 1]
+                dz = 0.0
                 r2 = dx * dx + dy * dy
                 approach = (rows[j, DIM] - rows[i, DIM]) * dx + (rows[j, DIM + 1] - rows[i, DIM + 1]) * dy
                 if DIM == 3:
@@ -56,15 +70,19 @@ def wall_reaction(  # type: ignore[no-untyped-def]
                     weight *= rows[i, 2 * DIM + 2] * rows[j, 2 * DIM + 2]
                     pressures = rows[i, 2 * DIM + 1] + rows[j, 2 * DIM + 1]
                     stress = weight * pair_stress(pressures, viscosity, approach, r2)
-                    wall = ghost_walls[j - fluid_count]
-                    partial[chunk, wall, 0] += stress * dx
-                    partial[chunk, wall, 1] += stress * dy
-                    if DIM == 3:
-                        partial[chunk, wall, 2] += stress * dz
-                    else:
-                        arm_x = rows[i, 0] - centres[wall, 0]
-                        arm_y = rows[i, 1] - centres[wall, 1]
-                        partial[chunk, wall, 2] += stress * (arm_x * dy - arm_y * dx)
+                    fx = stress * dx
+                    fy = stress * dy
+                    fz = stress * dz if DIM == 3 else 0.0
+                    g = j - fluid_count
+                    other = other_walls[g]
+                    if other >= 0:
+                        along = fx * other_normals[g, 0] + fy * other_normals[g, 1]
+                        ox = along * other_normals[g, 0]
+                        oy = along * other_normals[g, 1]
+                        fx -= ox
+                        fy -= oy
+                        add_load(partial[chunk, other], rows[i], centres[other], ox, oy, 0.0)
+                    add_load(partial[chunk, ghost_walls[g]], rows[i], centres[ghost_walls[g]], fx, fy, fz)
     loads[:] = 0.0
     for chunk in range(chunks):
         loads += partial[chunk]

@@ -1,0 +1,73 @@
+"""Boundary: which wall answers for the ghosts in the corner between two walls.
+
+The ghosts below a bed that runs on behind a paddle act on the fluid in front of the paddle, too. The component of
+their force along the paddle's normal is the paddle's: a paddle that ended at the bed would lack it, by the pressure on
+about half a particle spacing of its height. For walls at a right angle this makes both walls' forces exact in a uniform
+pressure. Corners within one wall need no such care, since only the sum of its ghosts' forces is known.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sphframe.geometry import BoxWall, PolygonWall
+from sphframe.interfaces import Motion
+
+__all__ = ["Corners"]
+
+Array = NDArray[np.float64]
+
+
+class _End(NamedTuple):
+    """Open end of a wall: where, the direction in which the wall would go on, and its normal out of the fluid."""
+
+    wall: int
+    point: Array
+    onward: Array
+    normal: Array
+
+
+class Corners:
+    """The open ends of polygonal ``walls``, carried by the bodies ``wall_body`` (walls,) about ``centres``."""
+
+    def __init__(
+        self, walls: Sequence[PolygonWall | BoxWall], wall_body: NDArray[np.int64], centres: Array, reach: float
+    ) -> None:
+        self._wall_body, self._centres, self._reach = wall_body, centres, reach
+        self._ends: list[_End] = []
+        for index, wall in enumerate(walls if len(walls) > 1 else ()):
+            if isinstance(wall, PolygonWall) and not wall.closed:
+                start, end = wall.segments()
+                for point, edge, sense in ((start[0], end[0] - start[0], -1.0), (end[-1], end[-1] - start[-1], 1.0)):
+                    along = edge / np.linalg.norm(edge)
+                    self._ends.append(_End(index, point, sense * along, np.array([along[1], -along[0]])))
+
+    def shares(self, position: Array, wall: NDArray[np.int64], motions: Sequence[Motion]) -> tuple[NDArray[np.int64], Array]:
+        """Find for each ghost the wall behind whose prolongation it lies at present.
+
+        Parameters
+        ----------
+        position: of the ghosts (g, dim), m; ``wall`` (g,) which they belong to; ``motions`` of the bodies.
+
+        Returns
+        -------
+        Index (g,) of the other wall, -1 where there is none, and that wall's normal (g, dim) out of the fluid.
+        """
+        other = np.full(len(wall), -1, np.int64)
+        normals = np.zeros_like(position)
+        for end in self._ends:
+            point, onward, normal = end.point, end.onward, end.normal
+            body = self._wall_body[end.wall]
+            if body >= 0:
+                shift, angle = motions[body].position[:2], motions[body].position[2]
+                turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+                centre = self._centres[body]
+                point, onward, normal = centre + shift + turn @ (point - centre), turn @ onward, turn @ normal
+            offset = position - point
+            beyond, behind = offset @ onward, offset @ normal
+            here = (beyond > 0.0) & (beyond < self._reach) & (behind > 0.0) & (behind < self._reach)
+            here &= wall != end.wall
+            other[here], normals[here] = end.wall, normal
+        return other, normals
