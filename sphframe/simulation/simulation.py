@@ -177,6 +177,7 @@ class Simulation:
             self.between_steps = False
             with naming_component(self.case, running=True):
                 self.components["integrator"].step(self.system, self.time, self.time_step)
+            self.system.put_back(self.case.particle_spacing)
             self.time = min(self.time + self.time_step, self.case.until)
             self.step += 1
             self._stale = True
@@ -412,7 +413,14 @@ class Simulation:
 
     def body_motions(self) -> dict[str, Motion]:
         """Motion of each body at present."""
-        return dict(zip(self.boundary.bodies, self.system.motions, strict=True))
+        system = self.system
+        motions = {}
+        for k, (name, body) in enumerate(self.boundary.bodies.items()):
+            motions[name] = system.motions[k]
+            if body.needs_load:  # its motion was asked for within the step, before the integrator completed it
+                advanced = {"position": system.body_position[k].copy(), "velocity": system.body_velocity[k].copy()}
+                motions[name] = motions[name]._replace(**advanced)
+        return motions
 
     def wall_forces(self) -> dict[str, tuple[Array, Array]]:
         """Force on each wall, N (per metre of width in 2-D), by the ghosts' reaction and by integrated pressure.

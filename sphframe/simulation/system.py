@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sphframe.boundary.boundary import Boundary
+from sphframe.boundary.contact import put_back
 from sphframe.errors import SimulationError
 from sphframe.interfaces import CompiledKernel, EquationOfState, Motion, RigidBody, System
 from sphframe.neighbours import NeighbourLists
@@ -230,10 +231,20 @@ class FluidSystem(System):
             self.body_position[k], self.body_velocity[k] = motion.position, motion.velocity
         except Exception as error:
             raise SimulationError(
-                f"body {list(self.boundary.bodies)[k]!r} failed: {type(body).__name__}.motion at t = {time:.6g} s raised"
-                f" {type(error).__name__}: {error}; mend it: it must return a Motion of three arrays of three numbers"
+                f"body {list(self.boundary.bodies)[k]!r} failed: {type(body).__name__}.motion at t = {time:.6g} s"
+                f" raised {type(error).__name__}: {error}; mend it: it must return a Motion of three arrays of three numbers"
             ) from error
         return motion
+
+    def put_back(self, spacing: float) -> int:
+        """Put particles that have come behind a wall back on it; return how many there were."""
+        lists, boundary = self.lists, self.boundary
+        return int(
+            put_back(
+                self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, self.parameters.dim,
+                spacing, boundary.mirror, boundary.velocity,
+            )
+        )  # fmt: skip
 
     def hold(self) -> None:
         """Remember the state as the start of the step."""
