@@ -14,7 +14,7 @@ _AT_CUT_OFF = math.exp(-9.0)
 
 
 def _value(q: float) -> float:
-    return fast_exp(-q * q) - _AT_CUT_OFF
+    return max(fast_exp(-q * q) - _AT_CUT_OFF, 0.0)  # at the very cut-off round-off would make it negative
 
 
 def _gradient(q: float) -> float:

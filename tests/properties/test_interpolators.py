@@ -89,3 +89,8 @@ def test_printed_sfdi_errs_on_linear_fields_as_published():
         offsets = offsets[np.linalg.norm(offsets, axis=1) < 3.9]
         errors.append(np.linalg.norm(run(Cloud(offsets, np.ones(len(offsets)), 3.9)).weights @ offsets))
     assert 1e-3 < max(errors) < 0.2
+
+
+def test_two_neighbours_at_the_very_cut_off_get_positive_weights():
+    cloud = Cloud([[-2.9999999999, 0.0], [0.0, 2.9999999999999]], np.ones(2), 3.0)
+    assert evaluate(create("interpolators", "normalized"), cloud).weights.min() >= 0.0
