@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from sphframe.interfaces.scratch import local_array
     from sphframe.output import open_dataset
     from sphframe.registry import available, create
-    from sphframe.simulation import Run, Simulation, run
+    from sphframe.simulation import Run, Simulation, resume, run
 
 __version__ = "0.1.0"
 
@@ -62,7 +62,7 @@ _HOMES = {
     "sphframe.interfaces.scratch": ["local_array"],
     "sphframe.output": ["open_dataset"],
     "sphframe.registry": ["available", "create"],
-    "sphframe.simulation": ["Run", "Simulation", "run"],
+    "sphframe.simulation": ["Run", "Simulation", "resume", "run"],
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -98,6 +98,7 @@ __all__ = [  # noqa: RUF022
     "load_case",
     "local_array",
     "open_dataset",
+    "resume",
     "run",
 ]
 

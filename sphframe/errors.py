@@ -14,6 +14,7 @@ __all__ = [
     "OutputError",
     "PluginError",
     "PluginWarning",
+    "ResumeWarning",
     "SimulationError",
     "SphframeError",
     "UnknownComponentError",
@@ -93,3 +94,7 @@ class ApiVersionError(PluginError):
 
 class PluginWarning(UserWarning):
     """When a plugin nobody asked for by name (a hook) cannot be used; the run goes on without it."""
+
+
+class ResumeWarning(UserWarning):
+    """When a run is continued by other versions than began it: its results may differ in the last digits or more."""

@@ -22,6 +22,8 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
     - ``energy_excess``: largest total energy over its initial value, minus 1; ``mass_drift``: largest relative change
       of the mass;
     - ``particles_outside``: the most seen behind a wall in a frame;
+    - ``particles_removed``: how many left the domain; ``densities_outside``: the most in a sample whose density lies
+      outside the guards' band;
     - ``statuses``: share of each interpolation status among all ghosts and samples;
     - ``peaks``: for each probe its ``pressure``, ``time``, and both over rho0 g H and sqrt(H/g);
     - ``front_arrival``: see :func:`front_arrival`; None where the case has no front.
@@ -40,6 +42,8 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
         "steps": 0,
         "wall_clock": 0.0,
         "front_arrival": front_arrival(dataset),
+        "particles_removed": 0,
+        "densities_outside": 0,
     }
     if dataset.sizes["time"]:
         result["particles_outside"] = int(dataset["particles_outside"].max())
@@ -56,6 +60,8 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
         "wall_clock": wall_clock,
         "steps_per_second": rate,
         "particle_updates_per_second": rate * result["particles"],
+        "particles_removed": int(last["particles_removed"]),
+        "densities_outside": int(dataset["densities_outside"].max()),
         "energy_excess": float(np.max(energy) / energy[0] - 1.0) if energy[0] else 0.0,
         "mass_drift": float(np.max(np.abs(mass / mass[0] - 1.0))),
         "statuses": {

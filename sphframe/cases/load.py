@@ -17,7 +17,13 @@ from sphframe.registry.nearest import did_you_mean
 __all__ = ["load_case", "read_toml"]
 
 
-def load_case(source: str | Path | Case, preset: str | None = None, overrides: Mapping[str, Any] | None = None) -> Case:
+def load_case(
+    source: str | Path | Case,
+    preset: str | None = None,
+    overrides: Mapping[str, Any] | None = None,
+    *,
+    trusted: bool = False,
+) -> Case:
     """Return the case that ``source`` names, checked.
 
     Parameters
@@ -25,6 +31,7 @@ def load_case(source: str | Path | Case, preset: str | None = None, overrides: M
     source: the name of an installed case; a path that ends in ``.toml``, a case file (see :func:`read_toml`); a path
         that ends in ``.nc``, an output of sphframe whose run is to be repeated; or a case.
     preset: name of one of the case's presets.
+    trusted: whether a file may name components as ``module:attribute``, whose code is then imported.
     overrides: parameters by name, ``interpolator.mu`` for an option of a component or any other value in a table.
 
     Where the same parameter is given twice, overrides come before the preset, and the preset before the source.
@@ -47,12 +54,14 @@ def load_case(source: str | Path | Case, preset: str | None = None, overrides: M
         model, parameters = type(source), source.model_dump(exclude_unset=True)
     elif Path(source).suffix == ".toml":
         name, file_preset, parameters = read_toml(source)
-        _refuse_addresses(source, name, parameters, overrides or {})
+        if not trusted:
+            _refuse_addresses(source, name, parameters, overrides or {})
         model = load("cases", name)
         parameters = {**_preset(model, file_preset), **parameters}
     elif Path(source).suffix == ".nc":
         name, parameters = _read_output(Path(source))
-        _refuse_addresses(source, name, parameters, overrides or {})
+        if not trusted:
+            _refuse_addresses(source, name, parameters, overrides or {})
         model = load("cases", name)
     else:
         model, parameters = load("cases", str(source)), {}

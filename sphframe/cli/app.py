@@ -23,6 +23,7 @@ WELCOME = """\
 sphframe {version}: a laboratory for wall boundaries in SPH free-surface flow
 
   sphframe run dam-break        simulate a case (about a minute)
+  sphframe resume dam-break.nc  continue a run that was interrupted
   sphframe list                 what is installed: cases, interpolation methods, ...
   sphframe show dam-break       a case's parameters, units, defaults and presets
   sphframe new-plugin           start a boundary interpolation method of your own
@@ -68,6 +69,11 @@ app = typer.Typer(
 Kind = Annotated[str | None, typer.Argument(metavar="KIND", help="interpolators, kernels, cases, ...; all by default")]
 Preset = Annotated[str | None, typer.Option(metavar="NAME", help="one of the case's presets, such as paper")]
 
+Every = Annotated[
+    float, typer.Option(metavar="SECONDS", help="wall-clock time between checkpoints, beside the output; 0 for none")
+]
+Interval = Annotated[float | None, typer.Option(metavar="SECONDS", help="simulated time between checkpoints")]
+
 
 def main() -> None:
     """Run the command line; raises SystemExit with 0, 1 (a defect), 2 (input, files), 3 (a run gone wrong) or 130."""
@@ -101,13 +107,44 @@ def _run(
     threads: Annotated[int | None, typer.Option(help="threads; by default all cores")] = None,
     output: Annotated[Path | None, typer.Option(metavar="FILE", help="by default CASE.nc in this folder")] = None,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="replace files of an earlier run")] = False,
+    checkpoint_every: Every = 60.0,
+    checkpoint_interval: Interval = None,
 ) -> None:
     """Simulate a case, and write CASE.nc and a picture."""
     from sphframe.cli.run import run_command
     from sphframe.cli.values import read_assignments
 
     overrides = read_assignments(assignments or [], {"interpolator": interpolator, "until": until})
-    run_command(case, preset=preset, overrides=overrides, threads=threads, output=output, overwrite=overwrite)
+    run_command(
+        case,
+        preset=preset,
+        overrides=overrides,
+        threads=threads,
+        output=output,
+        overwrite=overwrite,
+        checkpoint_every=checkpoint_every,
+        checkpoint_interval=checkpoint_interval,
+    )
+
+
+@app.command("resume")
+def _resume(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="output file (.nc) of a run that did not end")],
+    threads: Annotated[int | None, typer.Option(help="threads; by default all cores")] = None,
+    trust: Annotated[bool, typer.Option("--trust", help="import code that the file names as module:attribute")] = False,
+    checkpoint_every: Every = 60.0,
+    checkpoint_interval: Interval = None,
+) -> None:
+    """Continue a run from its last checkpoint, to the same bits as if it had never been interrupted."""
+    from sphframe.cli.resume import resume_command
+
+    resume_command(
+        file,
+        threads=threads,
+        trusted=trust,
+        checkpoint_every=checkpoint_every,
+        checkpoint_interval=checkpoint_interval,
+    )
 
 
 @app.command("list")

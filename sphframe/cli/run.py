@@ -1,10 +1,8 @@
 """CLI: ``sphframe run``."""
 
-import contextlib
-import signal
 import time
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -15,12 +13,12 @@ from rich.table import Table
 from sphframe.analysis import summary
 from sphframe.cases import Case, CaseWarning, load_case
 from sphframe.cli.progress import ProgressDisplay
-from sphframe.errors import InputError, OutputError
+from sphframe.errors import InputError, OutputError, ResumeWarning
 from sphframe.hooks import hook_manager
-from sphframe.output import NetCDFWriter, open_dataset
+from sphframe.output import CheckpointWriter, NetCDFWriter, open_dataset
 from sphframe.simulation import Simulation
 
-__all__ = ["run_command"]
+__all__ = ["console_log", "finish", "go", "picture_of", "run_command"]
 
 
 def run_command(
@@ -31,19 +29,20 @@ def run_command(
     threads: int | None,
     output: Path | None,
     overwrite: bool,
+    checkpoint_every: float,
+    checkpoint_interval: float | None,
 ) -> None:
     """Run a case and say what happened and what was written."""
-    screen = Console(highlight=False, soft_wrap=True)
-    log = Console(stderr=True, highlight=False, soft_wrap=True)
-    warnings.simplefilter("always", CaseWarning)
+    log = console_log()
     case = load_case(source, preset=preset, overrides=overrides)
     path = output or Path(f"{_stem(source)}.nc")
-    picture = path.with_suffix(".png")
     if path.suffix != ".nc":
         raise InputError(f"--output {path}: give it the ending .nc, since a NetCDF file is written")
+    picture = picture_of(path)
     if picture.exists() and not overwrite and find_spec("matplotlib"):
         raise OutputError(f"{picture} exists; give --overwrite to replace it, or --output FILE to write elsewhere")
     writer = NetCDFWriter(path, overwrite=overwrite)
+    checkpoints = CheckpointWriter(writer, every=checkpoint_every or None, interval=checkpoint_interval)
 
     log.print(f"{case.title}: {_described(case)}")
     log.print("compiling (seconds the first time, then read from a cache) ...")
@@ -53,17 +52,45 @@ def run_command(
         f"{simulation.fluid_count:,} fluid and {simulation.ghost_count:,} ghost particles, {simulation.threads}"
         f" thread{'s' * (simulation.threads > 1)}, ready after {time.monotonic() - began:.1f} s"
     )
-    with _stopped_by_termination(), _saying_what_is_left(path, simulation, log):
-        simulation.run(hook_manager([writer, ProgressDisplay(log)]))
+    go(simulation, writer, checkpoints, log)
+    finish(case, path)
 
+
+def console_log() -> Console:
+    """Return where a command says what it does; warnings are said every time."""
+    warnings.simplefilter("always", CaseWarning)
+    warnings.simplefilter("always", ResumeWarning)
+    return Console(stderr=True, highlight=False, soft_wrap=True)
+
+
+def picture_of(path: Path) -> Path:
+    """Return where the picture of the run in ``path`` goes."""
+    return path.with_suffix(".png")
+
+
+def go(simulation: Simulation, writer: NetCDFWriter, checkpoints: CheckpointWriter, log: Console) -> None:
+    """Run, and say what is left when the run does not come to its end."""
+    try:
+        simulation.run(hook_manager([writer, checkpoints, ProgressDisplay(log)]))
+    except BaseException:
+        if writer.run_id and writer.path.exists() and simulation.step:
+            log.print(f"{writer.path} holds the run up to t = {simulation.time:.4g} s")
+        if checkpoints.path.exists():
+            log.print(f"to continue from the last checkpoint: sphframe resume {writer.path}")
+        raise
+
+
+def finish(case: Case, path: Path) -> None:
+    """Print what happened and draw the picture."""
+    screen = Console(highlight=False, soft_wrap=True)
     with open_dataset(path) as dataset:
         screen.print(_table(case, summary(dataset)))
         screen.print(f"wrote {path}")
         if find_spec("matplotlib"):
             from sphframe.analysis import plot_run
 
-            plot_run(dataset, picture)
-            screen.print(f"wrote {picture}")
+            plot_run(dataset, picture_of(path))
+            screen.print(f"wrote {picture_of(path)}")
         else:
             screen.print("no picture: matplotlib is missing (python -m pip install 'sphframe[plot]')")
 
@@ -78,26 +105,6 @@ def _described(case: Case) -> str:
         f"{case.interpolator.name} interpolation, {case.hydrostatic_lift} lift, particle spacing"
         f" {case.particle_spacing:g} m, {case.dimension}-D, until {case.until:.4g} s"
     )
-
-
-@contextlib.contextmanager
-def _stopped_by_termination() -> Iterator[None]:
-    """Let SIGTERM end a run as Ctrl-C does: the files are closed."""
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
-@contextlib.contextmanager
-def _saying_what_is_left(path: Path, simulation: Simulation, log: Console) -> Iterator[None]:
-    try:
-        yield
-    except BaseException:
-        if path.exists() and simulation.step:
-            log.print(f"{path} holds the run up to t = {simulation.time:.4g} s")
-        raise
 
 
 def _table(case: Case, figures: Mapping[str, Any]) -> Table:
@@ -115,6 +122,10 @@ def _table(case: Case, figures: Mapping[str, Any]) -> Table:
     table.add_row("total energy", f"at most {100 * figures['energy_excess']:+.2f} % above its initial value")
     if figures["particles_outside"]:
         table.add_row("behind walls", f"up to {figures['particles_outside']} particles")
+    if figures["particles_removed"]:
+        table.add_row("left the domain", f"{figures['particles_removed']} particles, removed")
+    if figures["densities_outside"]:
+        table.add_row("odd densities", f"up to {figures['densities_outside']} particles outside the band")
     statuses = ", ".join(f"{name} {100 * share:.2f} %" for name, share in figures["statuses"].items() if share)
     table.add_row("ghosts", statuses)
     table.add_row(

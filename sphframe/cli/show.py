@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+from pydantic import BaseModel
 from pydantic_core import PydanticUndefined
 from rich.console import Console
 from rich.table import Table
@@ -81,6 +82,8 @@ def _written(value: Any) -> str:
     if isinstance(value, Component):
         table = value.model_dump()
         return value.name if len(table) == 1 else str(table)
+    if isinstance(value, BaseModel):
+        return ", ".join(f"{name} = {_written(inner)}" for name, inner in value)
     if value is None:
         return "(automatic)"
     if isinstance(value, tuple | dict) and not value:

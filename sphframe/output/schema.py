@@ -102,6 +102,8 @@ VARIABLES: Mapping[str, Variable] = {
     "interpolation_status": Variable(
         ("probe_time", "status"), "1", "ghost particles by the status of their interpolation", "i4"
     ),
+    "particles_removed": Variable(("probe_time",), "1", "particles that left the domain and were removed", "i4"),
+    "densities_outside": Variable(("probe_time",), "1", "particles with a density outside the guards' band", "i4"),
     "wall_force": Variable(
         ("probe_time", "wall", "space"), "N", "force of the fluid on the wall, reaction of its ghosts", per_width=True
     ),

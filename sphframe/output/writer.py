@@ -8,36 +8,32 @@ readable at any moment, and after a crash at any moment.
 
 import contextlib
 import errno
-import importlib.metadata
 import json
 import os
-import platform
 import shutil
 import time
+import uuid
 from collections.abc import Iterator, Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from sphframe import registry
 from sphframe.errors import OutputError
 from sphframe.hooks import hookimpl
 from sphframe.interfaces import Status
 from sphframe.output.lock import lock_file
+from sphframe.output.provenance import COMPONENTS, distributions, registered_name, software
 from sphframe.output.schema import CONVENTIONS, FORMAT, VARIABLES, RunStatus, Variable, unit_of
 
-__all__ = ["NetCDFWriter"]
+if TYPE_CHECKING:
+    from sphframe.output.checkpoint import Checkpoint
 
-_COMPONENTS = {
-    "interpolator": "interpolators",
-    "kernel": "kernels",
-    "equation_of_state": "equations_of_state",
-    "integrator": "integrators",
-}
+__all__ = ["NetCDFWriter", "checkpoint_path"]
+
 _MESSAGE_LENGTH = 500
 
 
@@ -50,6 +46,7 @@ class NetCDFWriter:
     overwrite: replace an existing file. It is replaced when the run starts, not before.
     flush_interval: seconds of wall-clock time after which samples are written at the latest; a killed run loses at
         most these.
+    resumed: the checkpoint from which an existing file is continued, in place of a new one.
 
     Raises
     ------
@@ -57,8 +54,18 @@ class NetCDFWriter:
         run is writing it. All of this is checked here, before anything is computed.
     """
 
-    def __init__(self, path: str | os.PathLike[str], overwrite: bool = False, *, flush_interval: float = 1.0) -> None:
+    def __init__(
+        self,
+        path: str | os.PathLike[str],
+        overwrite: bool = False,
+        *,
+        flush_interval: float = 1.0,
+        resumed: "Checkpoint | None" = None,
+    ) -> None:
         self.path = Path(path)
+        self.run_id = ""
+        """what tells this run's files from those of another, once it has started"""
+        self._resumed = resumed
         self.overwrite = overwrite
         self.flush_interval = flush_interval
         self._file: netCDF4.Dataset | None = None
@@ -67,11 +74,15 @@ class NetCDFWriter:
         self._written = 0
         self._frames = 0
         self._flushed_at = 0.0
-        _check_target(self.path, overwrite)
+        if resumed is None:
+            _check_target(self.path, overwrite)
 
     @hookimpl
     def sphframe_run_started(self, simulation: Any) -> None:
-        """Create the file, with all that is known at the start."""
+        """Create the file, with all that is known at the start; or open it again, to continue it."""
+        if self._resumed is not None:
+            self._reopen(self._resumed)
+            return
         _check_target(self.path, self.overwrite)
         lengths = _dimensions(simulation)
         _check_space(self.path, lengths, _planned_frames(simulation.case))
@@ -86,9 +97,12 @@ class NetCDFWriter:
                 self._file.set_auto_maskandscale(False)
                 self._file.set_auto_chartostring(False)
                 _define(self._file, simulation, lengths)
+                self.run_id = uuid.uuid4().hex
+                self._file.setncattr("run_id", self.run_id)
                 _fill_start(self._file, simulation)
                 self._file.sync()
                 self._publish(draft)
+                checkpoint_path(self.path).unlink(missing_ok=True)  # of the run that was replaced
             except BaseException:
                 self._abandon()
                 draft.unlink(missing_ok=True)
@@ -130,16 +144,57 @@ class NetCDFWriter:
         if self._file is None:
             return
         with contextlib.suppress(OutputError):  # the run has failed already, perhaps for want of space
-            self._end(RunStatus.FAILED, f"{type(error).__name__}: {error}")
+            interrupted = isinstance(error, KeyboardInterrupt)
+            self._end(RunStatus.FAILED, "interrupted" if interrupted else f"{type(error).__name__}: {error}")
 
     def _end(self, status: RunStatus, message: str) -> None:
-        file = self._open_file()
         self._flush()
         with self._keeping():
-            file["run_message"][:] = _characters([message], _MESSAGE_LENGTH)[0]
-            file["run_status"][...] = int(status)
-            file.sync()
+            self._mark(status, message)
             self._close()
+
+    def flush(self) -> None:
+        """Bring all that was told so far to the disk.
+
+        Raises
+        ------
+        OutputError: when that fails.
+        """
+        if self._file is None:
+            return
+        self._flush()
+        with self._keeping():
+            if self._lock is not None:
+                os.fsync(self._lock)
+
+    def _reopen(self, checkpoint: "Checkpoint") -> None:
+        with self._keeping():
+            self._lock = lock_file(self.path)
+            if self._lock is None:
+                raise OutputError(_taken(self.path))
+            self._file = file = netCDF4.Dataset(self.path, "r+")
+            file.set_auto_maskandscale(False)
+            file.set_auto_chartostring(False)
+            samples = int(np.isfinite(file["probe_time"][:]).sum())
+            if getattr(file, "run_id", "") != checkpoint.run_id:
+                self._abandon()
+                raise OutputError(f"{self.path} is of another run than its checkpoint; run the case again")
+            if len(file["time"]) < checkpoint.frames or samples < checkpoint.samples:
+                self._abandon()
+                raise OutputError(
+                    f"{self.path} holds less than its checkpoint counts: it is an older copy; put them together again,"
+                    " or run the case again"
+                )
+            self.run_id = checkpoint.run_id
+            self._frames, self._written = checkpoint.frames, checkpoint.samples
+            self._mark(RunStatus.RUNNING, "")
+        self._flushed_at = time.monotonic()
+
+    def _mark(self, status: RunStatus, message: str) -> None:
+        file = self._open_file()
+        file["run_message"][:] = _characters([message], _MESSAGE_LENGTH)[0]
+        file["run_status"][...] = int(status)
+        file.sync()
 
     def _flush(self) -> None:
         """Write the samples gathered so far: first their values, then, once these are on disk, their times."""
@@ -230,8 +285,14 @@ class NetCDFWriter:
             self._lock = None
 
 
+def checkpoint_path(output: Path) -> Path:
+    """Return where the checkpoint of a run with this output lies."""
+    return output.with_name(f"{output.name}.restart")
+
+
 def _exists(path: Path) -> str:
-    return f"{path} exists: give --overwrite (overwrite=True) to replace it, or another --output"
+    resume = f", sphframe resume {path} to continue it" if checkpoint_path(path).exists() else ""
+    return f"{path} exists: give --overwrite (overwrite=True) to replace it{resume}, or another --output"
 
 
 def _taken(path: Path) -> str:
@@ -252,6 +313,11 @@ def _check_target(path: Path, overwrite: bool) -> None:
         if descriptor is None:
             raise OutputError(_taken(path))
         os.close(descriptor)
+    elif checkpoint_path(path).exists() and not overwrite:
+        raise OutputError(
+            f"{checkpoint_path(path)} exists, the checkpoint of a run whose output is gone: give --overwrite"
+            " (overwrite=True) to remove it, or another --output"
+        )
     if not folder.is_dir():
         raise OutputError(f"the folder {folder} for {path.name} does not exist: create it (mkdir -p {folder})")
     if not os.access(folder, os.W_OK | os.X_OK):
@@ -392,7 +458,9 @@ def _sample(simulation: Any) -> dict[str, Any]:
         "wall_clock": simulation.wall_clock,
         **{f"{name}_energy": energies[name] for name in ("kinetic", "potential", "internal")},
         "total_energy": sum(energies[name] for name in ("kinetic", "potential", "internal")),
-        "mass": float(np.sum(simulation.masses())),
+        "mass": float(np.nansum(simulation.masses())),
+        "particles_removed": simulation.removed_count,
+        "densities_outside": simulation.densities_outside,
         "interpolation_status": simulation.status_counts(),
         **simulation.diagnostics(),
     }
@@ -414,25 +482,20 @@ def _sample(simulation: Any) -> dict[str, Any]:
 def _attributes(simulation: Any) -> dict[str, Any]:
     """Global attributes: all that repeats the run, and the scales that make its numbers dimensionless."""
     case, scene = simulation.case, simulation.scene
-    name = _registered_name(type(case))
-    versions = {package: importlib.metadata.version(package) for package in ("numpy", "numba", "netCDF4")}
-    distributions = {"sphframe": importlib.metadata.version("sphframe")}
     components = {}
-    for field, kind in _COMPONENTS.items():
+    for field in COMPONENTS:
         chosen = getattr(case, field)
         components[field] = {"name": chosen.name, **chosen.options}
-        for entry in registry.available(kind):
-            if entry.name == chosen.name and entry.distribution:
-                distributions[entry.distribution] = entry.version
+    versions = distributions(case)
     return {
         "Conventions": CONVENTIONS,
         "title": case.title,
-        "source": f"sphframe {distributions['sphframe']}",
-        "case_name": name,
+        "source": f"sphframe {versions['sphframe']}",
+        "case_name": registered_name(type(case)),
         "case_parameters": json.dumps(case.model_dump(mode="json")),
         "components": json.dumps(components),
-        "distributions": json.dumps(distributions),
-        "software": json.dumps({"python": platform.python_version(), **versions}),
+        "distributions": json.dumps(versions),
+        "software": json.dumps(software()),
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "dimension": np.int32(case.dimension),
         "particle_spacing": case.particle_spacing,
@@ -444,11 +507,6 @@ def _attributes(simulation: Any) -> dict[str, Any]:
         "domain_lower": np.array(scene.domain[0], dtype=np.float64),
         "domain_upper": np.array(scene.domain[1], dtype=np.float64),
     }
-
-
-def _registered_name(case: type) -> str:
-    target = f"{case.__module__}:{case.__qualname__}"
-    return next((entry.name for entry in registry.available("cases") if entry.value == target), target)
 
 
 def _text_length(name: str, simulation: Any) -> int:

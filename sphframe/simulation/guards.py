@@ -140,8 +140,8 @@ def check_time_step(step: float, at_rest: float, speed: float) -> None:
     """Stop where the adaptive time ``step`` (s) has collapsed against that ``at_rest``, at the largest ``speed``."""
     if step < COLLAPSED * at_rest:
         raise SimulationError(
-            f"the time step has collapsed to {step:.3g} s, from {at_rest:.3g} s at rest, for a speed of {speed:.3g} m/s;"
-            f" likely causes: a Courant number above the stability limit (set a smaller courant_number), or a sound"
+            f"the time step has collapsed to {step:.3g} s, from {at_rest:.3g} s at rest, for a speed of"
+            f" {speed:.3g} m/s; likely causes: a Courant number above the stability limit (set a smaller courant_number), or a sound"
             " speed too low for the flow (raise sound_speed)"
         )
 

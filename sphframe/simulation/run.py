@@ -1,20 +1,25 @@
-"""Simulation: one call from a case to its dataset."""
+"""Simulation: one call from a case to its dataset, and from a checkpoint to the end of its run."""
 
+import json
 import os
 import tempfile
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import xarray as xr
 
 from sphframe.cases import Case, load_case
+from sphframe.errors import InputError, ResumeWarning
 from sphframe.hooks import hook_manager
-from sphframe.output import NetCDFWriter, open_dataset
+from sphframe.output import CheckpointWriter, NetCDFWriter, open_dataset
+from sphframe.output.checkpoint import changed_versions, read_checkpoint
+from sphframe.output.writer import checkpoint_path
 from sphframe.simulation.simulation import Simulation
 
-__all__ = ["Run", "run"]
+__all__ = ["Prepared", "Run", "prepare_resume", "resume", "run"]
 
 
 @dataclass(frozen=True)
@@ -34,6 +39,8 @@ def run(
     threads: int | None = None,
     overwrite: bool = False,
     hooks: Sequence[object] = (),
+    checkpoint_every: float | None = 60.0,
+    checkpoint_interval: float | None = None,
     **parameters: Any,
 ) -> Run:
     """Run a case to its end and return its dataset.
@@ -46,6 +53,8 @@ def run(
     threads: threads of the compiled loops; by default all cores.
     overwrite: whether an existing ``output`` may be replaced.
     hooks: listeners to the run's events, see :mod:`sphframe.hooks`.
+    checkpoint_every: wall-clock time between checkpoints, s; None for none. See :func:`resume`.
+    checkpoint_interval: simulated time between checkpoints, s; None for none.
     **parameters: parameters of the case by name, ``interpolator="mls-linear"``, ``particle_spacing=0.01``.
 
     Raises
@@ -53,15 +62,87 @@ def run(
     InputError, PluginError: when the case or a component is not valid; nothing has been run.
     OutputError: when the output cannot be written.
     SimulationError: when the run goes wrong; what was computed until then is in the file.
+    KeyboardInterrupt: at Ctrl-C or SIGTERM, after the step and a checkpoint.
     """
-    if isinstance(case, Case):
-        ready = load_case(case, preset=preset, overrides=parameters)
-    else:
-        ready = load_case(os.fspath(case), preset=preset, overrides=parameters)
-    if output is None:
-        path = Path(tempfile.mkdtemp(prefix="sphframe-")) / "run.nc"
-    else:
-        path = Path(output)
+    source = case if isinstance(case, Case) else os.fspath(case)
+    ready = load_case(source, preset=preset, overrides=parameters)
+    path = Path(tempfile.mkdtemp(prefix="sphframe-")) / "run.nc" if output is None else Path(output)
     writer = NetCDFWriter(path, overwrite=overwrite)
-    Simulation(ready, threads=threads).run(hook_manager([writer, *hooks]))
+    checkpoints = CheckpointWriter(writer, every=checkpoint_every, interval=checkpoint_interval)
+    Simulation(ready, threads=threads).run(hook_manager([writer, checkpoints, *hooks]))
     return Run(ready, path, open_dataset(path))
+
+
+class Prepared(NamedTuple):
+    """A run ready to be continued."""
+
+    simulation: Simulation
+    writer: NetCDFWriter
+
+
+def prepare_resume(
+    path: str | os.PathLike[str], *, case: Case | None = None, trusted: bool = False, threads: int | None = None
+) -> Prepared:
+    """Read a checkpoint and set its run up, without running; parameters and errors are those of :func:`resume`."""
+    output = Path(path)
+    if output.name == checkpoint_path(Path(output.stem)).name:
+        output = output.with_suffix("")
+    with open_dataset(output) as dataset:
+        complete, parameters = dataset.attrs["completed"] == "yes", dataset.attrs["case_parameters"]
+    if complete:
+        raise InputError(f"{output} is of a complete run: nothing is left to resume; open it, or run it again")
+    checkpoint = read_checkpoint(checkpoint_path(output))
+    ready = case or load_case(output, trusted=trusted)
+    if json.loads(parameters) != ready.model_dump(mode="json"):
+        raise InputError(f"{output} was begun with other parameters than those of the given case: resume it with those")
+    changes = changed_versions(checkpoint, ready)
+    if changes:
+        warnings.warn(
+            f"{output} is continued by other versions than began it, and may not end with the same bits:"
+            f" {'; '.join(changes)}",
+            ResumeWarning,
+            stacklevel=3,
+        )
+    simulation = Simulation(ready, threads=threads)
+    simulation.restore(checkpoint.state)
+    return Prepared(simulation, NetCDFWriter(output, resumed=checkpoint))
+
+
+def resume(
+    path: str | os.PathLike[str],
+    *,
+    case: Case | None = None,
+    trusted: bool = False,
+    threads: int | None = None,
+    hooks: Sequence[object] = (),
+    checkpoint_every: float | None = 60.0,
+    checkpoint_interval: float | None = None,
+) -> Run:
+    """Continue a run that was interrupted or killed from its last checkpoint to its end.
+
+    The result has the same bits as that of a run that was never interrupted, whenever and wherever checkpoints were
+    written and whatever the number of threads; only ``wall_clock`` differs. Of a component or hook that keeps a state
+    of its own nothing is saved: components are functions of their arguments.
+
+    Parameters
+    ----------
+    path: the output of the run, ``run.nc``, or its checkpoint, ``run.nc.restart``. Both must be there.
+    case: the case, if it is a class or holds functions of your own; by default it is read from the output.
+    trusted: whether the file may name components as ``module:attribute``, whose code is then imported.
+    threads, hooks, checkpoint_every, checkpoint_interval: as for :func:`run`.
+
+    Warns
+    -----
+    ResumeWarning: when the versions of sphframe, of a component or of what they compute with have changed.
+
+    Raises
+    ------
+    InputError: when there is nothing to resume, or a file is damaged.
+    OutputError: when output and checkpoint do not belong together, or another run is writing the output.
+    SimulationError, KeyboardInterrupt: as for :func:`run`.
+    """
+    prepared = prepare_resume(path, case=case, trusted=trusted, threads=threads)
+    checkpoints = CheckpointWriter(prepared.writer, every=checkpoint_every, interval=checkpoint_interval)
+    simulation = prepared.simulation
+    simulation.run(hook_manager([prepared.writer, checkpoints, *hooks]))
+    return Run(simulation.case, prepared.writer.path, open_dataset(prepared.writer.path))

@@ -55,6 +55,7 @@ class FakeSimulation:
         self.time, self.step, self.time_step, self.wall_clock = 0.0, 0, 0.01, 0.0
         self.sound_speed, self.smoothing_length = 44.3, 0.13
         self.fluid_count, self.ghost_count = particles, 20
+        self.removed_count = self.densities_outside = 0
         self.ghosts = SimpleNamespace(position=np.full((20, 2), -0.1), mirror=np.full((20, 2), 0.1))
 
     def fields(self) -> Fields:

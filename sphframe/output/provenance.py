@@ -1,0 +1,50 @@
+"""Output: what computed a run, by name and version."""
+
+import importlib.metadata
+import platform
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from sphframe import registry
+
+__all__ = ["COMPONENTS", "distributions", "registered_name", "software"]
+
+COMPONENTS = {
+    "interpolator": "interpolators",
+    "kernel": "kernels",
+    "equation_of_state": "equations_of_state",
+    "integrator": "integrators",
+}
+"""the fields of a case that choose a component, and its kind"""
+
+
+def distributions(case: Any) -> dict[str, str]:
+    """Return the versions of sphframe and of all distributions that the case and its components come from."""
+    versions = {"sphframe": importlib.metadata.version("sphframe")}
+    for kind, name in _chosen(case):
+        for entry in registry.available(kind):
+            if entry.name == name and entry.distribution:
+                versions[entry.distribution] = entry.version
+    return versions
+
+
+def software() -> dict[str, str]:
+    """Return the versions of Python and of the packages that numbers pass through."""
+    packages = {package: importlib.metadata.version(package) for package in ("numpy", "numba", "netCDF4")}
+    return {"python": platform.python_version(), **packages}
+
+
+def registered_name(case: type) -> str:
+    """Return the name under which a class of cases is installed, or its address."""
+    target = f"{case.__module__}:{case.__qualname__}"
+    return next((entry.name for entry in registry.available("cases") if entry.value == target), target)
+
+
+def _chosen(case: Any) -> Iterator[tuple[str, str]]:
+    yield "cases", registered_name(type(case))
+    for field, kind in COMPONENTS.items():
+        yield kind, getattr(case, field).name
+    bodies = getattr(case, "bodies", None)
+    for body in bodies.values() if isinstance(bodies, Mapping) else ():
+        if hasattr(body, "name"):
+            yield "rigid_bodies", body.name
