@@ -18,6 +18,9 @@ __all__ = ["CaseWarning", "check_case"]
 _MOST_PARTICLES = 50_000_000
 _MOST_FRAMES = 100_000
 _MOST_SAMPLES = 20_000_000
+_MOST_STEPS = 1e10
+_MOST_CELLS = 1e9
+_MOST_WALL_POINTS = 1e8
 _COMPONENTS = {
     "interpolator": "interpolators",
     "kernel": "kernels",
@@ -83,7 +86,12 @@ def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
             f" choose {scene.depth / 20.0:.2g} m or less"
         )
     yield from _output_problems(case)
+    yield from _step_problems(case, scene)
     if shape_problems:
+        return
+    size_problems = [*_size_problems(case, scene)]
+    yield from size_problems
+    if size_problems:
         return
     count = sum(float(np.prod((np.asarray(region.upper) - region.lower) / spacing)) for region in scene.fluid)
     if count > _MOST_PARTICLES:
@@ -143,6 +151,49 @@ def _output_problems(case: Case) -> Iterator[str]:
                 f"{name} = {interval:g} s with until = {case.until:g} s asks for {case.until / interval:.2g} outputs;"
                 f" choose {case.until / limit:.2g} s or more"
             )
+
+
+def _step_problems(case: Case, scene: Scene) -> Iterator[str]:
+    sound_speed = case.sound_speed or 20.0 * math.sqrt(case.gravity * scene.depth)
+    if case.time_step is not None:
+        step, parameter = case.time_step, f"time_step = {case.time_step:g} s"
+    elif sound_speed > 0.0:
+        courant = case.courant_number or 1.0
+        step = courant * case.smoothing_length_ratio * case.particle_spacing / sound_speed
+        given = f"courant_number = {case.courant_number:g} and " if case.courant_number else ""
+        parameter = f"{given}sound speed {sound_speed:g} m/s"
+    else:
+        return
+    if not case.until < _MOST_STEPS * step:
+        yield (
+            f"{parameter} with until = {case.until:g} s ask for more than {_MOST_STEPS:g} steps, which would never end;"
+            f" choose a time step of {case.until / _MOST_STEPS:.2g} s or more, or a smaller until"
+        )
+
+
+def _size_problems(case: Case, scene: Scene) -> Iterator[str]:
+    extents = np.subtract(scene.domain[1], scene.domain[0])
+    if not np.all(extents > 0.0):
+        yield f"domain = {scene.domain}: its first corner must be the lower one, its second the upper one on all axes"
+        return
+    spacing = case.particle_spacing
+    with np.errstate(over="ignore"):
+        cells = float(np.prod(np.ceil(extents / (3.0 * spacing))))
+        points = sum(
+            float(np.sum(np.linalg.norm(np.diff(line, axis=0), axis=1))) / spacing
+            for wall in scene.walls
+            for line in wall.outline()
+        )
+    if not cells < _MOST_CELLS:
+        yield (
+            f"the domain {scene.domain} is too large for particle_spacing = {spacing:g} m ({cells:.2g} cells of the"
+            " neighbour search); draw smaller walls, give a smaller domain, or choose a larger spacing"
+        )
+    if not points < _MOST_WALL_POINTS:
+        yield (
+            f"the walls are too long for particle_spacing = {spacing:g} m ({points:.2g} spacings); draw them smaller,"
+            " or choose a larger spacing"
+        )
 
 
 def _region_problems(case: Case, scene: Scene, index: int, region: Region) -> Iterator[str]:
