@@ -110,6 +110,11 @@ def check_honest_status(method: BoundaryInterpolator, dim: int) -> None:
 
     prove(method, dim, "weights must be finite, and the status known, for every cloud", wrong_with)
 
+    far_away = np.full((1, dim), 10.0)
+    matrix, statuses = operator(method, np.zeros(dim), far_away, 1.0, smoothing_length=1.0)
+    if statuses.tolist() != [DRY] or matrix.nnz:
+        raise _broken(method, dim, f"a point without neighbours has the status {statuses[0]} and {matrix.nnz} weights")
+
 
 def check_bounded_weights(method: BoundaryInterpolator, dim: int) -> None:
     """sum_j |Phi_j| stays below 1000: a method answers SINGULAR rather than magnify noise without limit."""
