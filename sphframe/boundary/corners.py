@@ -44,7 +44,9 @@ class Corners:
                     along = edge / np.linalg.norm(edge)
                     self._ends.append(_End(index, point, sense * along, np.array([along[1], -along[0]])))
 
-    def shares(self, position: Array, wall: NDArray[np.int64], motions: Sequence[Motion]) -> tuple[NDArray[np.int64], Array]:
+    def shares(
+        self, position: Array, wall: NDArray[np.int64], motions: Sequence[Motion]
+    ) -> tuple[NDArray[np.int64], Array]:
         """Find for each ghost the wall behind whose prolongation it lies at present.
 
         Parameters

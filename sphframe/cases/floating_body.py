@@ -22,9 +22,7 @@ class FloatingBody(Case):
     dimension: Literal[2] = quantity(2, "1", "dimension of space; free bodies are two-dimensional")
     depth: float = quantity(0.4, "m", "depth of the water when the box is at its initial draught", gt=0)
     tank_length: float = quantity(1.2, "m", "length of the tank", gt=0)
-    tank_height: float = quantity(
-        Derived("1.5 depth", lambda case: 1.5 * case.depth), "m", "height of the walls", gt=0
-    )
+    tank_height: float = quantity(Derived("1.5 depth", lambda case: 1.5 * case.depth), "m", "height of the walls", gt=0)
     box_length: float = quantity(0.4, "m", "length of the box", gt=0)
     box_height: float = quantity(0.2, "m", "height of the box", gt=0)
     density_ratio: float = quantity(0.5, "1", "density of the box over that of the water", gt=0, lt=1)
@@ -34,15 +32,6 @@ class FloatingBody(Case):
         "draught at the start",
         gt=0,
     )
-    added_mass: float = quantity(
-        Derived(
-            "none for a box heavier than two layers of particles around it, else these",
-            lambda case: case.layers_of_water(),
-        ),
-        "kg m-1",
-        "water that the box takes along implicitly; steadies light boxes and alters no steady acceleration",
-        ge=0,
-    )
     particle_spacing: float = quantity(0.01, "m", "spacing of the particles at the start", gt=0)
     until: float = quantity(4.0, "s", "time at which the run ends", gt=0)
     frame_interval: float = quantity(0.05, "s", "time between stored frames of all particles", gt=0)
@@ -51,12 +40,6 @@ class FloatingBody(Case):
     def box_mass(self) -> float:
         """Return the mass of the box, kg per metre of width."""
         return self.density_ratio * self.reference_density * self.box_length * self.box_height
-
-    def layers_of_water(self) -> float:
-        """Return the mass of two layers of particles along the wetted sides if it exceeds the box's, kg/m; else 0."""
-        wetted = self.box_length + 2.0 * self.initial_draught
-        water = 2.0 * self.particle_spacing * wetted * self.reference_density
-        return water if water > self.box_mass() else 0.0
 
     def scene(self) -> Scene:
         """Draw tank, box and water around the box."""
@@ -70,7 +53,6 @@ class FloatingBody(Case):
             inertia=mass * (self.box_length**2 + self.box_height**2) / 12.0,
             centre=(0.5 * length, 0.5 * (bottom + top)),
             gravity=self.gravity,
-            added_mass=self.added_mass,
         )
         tank = ((0.0, self.tank_height), (0.0, 0.0), (length, 0.0), (length, self.tank_height))
         hull = ((left, bottom), (left, top), (right, top), (right, bottom))

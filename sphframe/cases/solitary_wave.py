@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,8 +21,9 @@ Array = NDArray[np.float64]
 class SolitaryWaveFlume(Case):
     """A flume with a piston at its left end and a seawall at its right end, in two dimensions.
 
-    The paddle starts at x = 0 at t = 0 by the convention of :class:`sphframe.bodies.SolitaryWavePaddle`. The seawall
-    rises from the bed at x = ``tank_length``. Recorded beside what every case records: ``gauge_elevation`` at gauges
+    The paddle starts at t = 0 by the convention of :class:`sphframe.bodies.SolitaryWavePaddle`, at x = 0 or up to half
+    a particle spacing beside it, so that a whole number of particles fits between it and the seawall, which rises from
+    the bed at x = ``tank_length``. Recorded beside what every case records: ``gauge_elevation`` at gauges
     G1, G2, ... along the flume, ``probe_pressure`` at P0, P1, ... on the seawall, and the diagnostic ``run_up``.
     """
 
@@ -87,12 +88,13 @@ class SolitaryWaveFlume(Case):
             x, y = toe + z / upward[1] * upward
             return (round(float(x), 12), round(float(y), 12))
 
+        start = self.paddle_start()
         contact = run_up_along(toe, upward, depth, self.particle_spacing, self.smoothing_length_ratio)
         margin = self.particle_spacing
         right = max(length, on_wall(height)[0]) + travel
         return Scene(
-            walls=(PolygonWall(name="paddle", points=((0.0, height), (0.0, 0.0)), body="paddle"), *walls),
-            fluid=(PolygonRegion(points=((0.0, 0.0), (length, 0.0), on_wall(depth), (0.0, depth))),),
+            walls=(PolygonWall(name="paddle", points=((start, height), (start, 0.0)), body="paddle"), *walls),
+            fluid=(PolygonRegion(points=((start, 0.0), (length, 0.0), on_wall(depth), (start, depth))),),
             depth=depth,
             domain=((-margin, -margin), (right + margin, 2.0 * height)),
             probes=tuple(Probe(name=f"P{i}", position=on_wall(z)) for i, z in enumerate(self.probe_heights)),
@@ -105,9 +107,13 @@ class SolitaryWaveFlume(Case):
             ),
         )
 
+    def paddle_start(self) -> float:
+        """Return the x at which the paddle starts, m."""
+        return self.tank_length - round(self.tank_length / self.particle_spacing) * self.particle_spacing
+
     def bed_start(self) -> float:
         """Return the x at which the bed begins, behind the paddle, so that ghosts fill the corner between them."""
-        return -10.0 * self.particle_spacing
+        return self.paddle_start() - 10.0 * self.particle_spacing
 
 
 def run_up_along(toe: Array, upward: Array, depth: float, spacing: float, ratio: float) -> Callable[[Fields], float]:

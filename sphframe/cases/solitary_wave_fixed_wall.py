@@ -14,8 +14,8 @@ __all__ = ["SolitaryWaveFixedWall"]
 class SolitaryWaveFixedWall(SolitaryWaveFlume):
     """A solitary wave runs against a seawall, vertical or leaning: section 4.3 of Huang et al. (2019).
 
-    The seawall and the bed are one wall, ``tank``; the x component of ``wall_force`` on it is the seawall's alone, since
-    a bed without friction takes none.
+    The seawall and the bed are one wall, ``tank``; the x component of ``wall_force`` on it is the seawall's alone,
+    since a bed without friction takes none.
 
     Departs from the paper, which names neither paddle nor sound speed: a piston by Rayleigh's theory, 20 sqrt(g d).
 
@@ -23,7 +23,7 @@ class SolitaryWaveFixedWall(SolitaryWaveFlume):
 
     Examples
     --------
-    The preset's flume holds the paper's 25,180 particles (here 8 of them more); the wave comes to x = 10 m after 5.95 s:
+    The preset's flume holds the paper's 25,180 particles; the wave comes to x = 10 m after 5.95 s:
 
     >>> from sphframe.cases import load_case
     >>> from sphframe.geometry import lattice

@@ -1,5 +1,6 @@
 """Cases: a solitary wave against a seawall on a spring."""
 
+import math
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
@@ -47,7 +48,10 @@ class SolitaryWaveMovableWall(SolitaryWaveFlume):
 
     depth: float = quantity(0.2, "m", "still water depth d", gt=0)
     wave_height: float = quantity(
-        Derived("0.3 depth", lambda case: 0.3 * case.depth), "m", "height A of the wave that the paddle is to make", gt=0
+        Derived("0.3 depth", lambda case: 0.3 * case.depth),
+        "m",
+        "height A of the wave that the paddle is to make",
+        gt=0,
     )
     tank_length: float = quantity(2.5, "m", "distance from the paddle to the seawall, both at the start", gt=0)
     wall_mass: float = quantity(250.0, "kg m-1", "mass of the seawall per metre of width", gt=0)
@@ -70,5 +74,6 @@ class SolitaryWaveMovableWall(SolitaryWaveFlume):
             threshold=self.threshold_ratio * 0.5 * self.reference_density * self.gravity * self.depth**2,
         )
         seawall = PolygonWall(name="seawall", points=((length, 0.0), (length, self.tank_height)), body="seawall")
-        bed = PolygonWall(name="bed", points=((self.bed_start(), 0.0), (length + self.wall_travel, 0.0)))
-        return self.flume(90.0, (bed, seawall), {"seawall": wall}, travel=self.wall_travel, seawall_body="seawall")
+        travel = math.ceil(self.wall_travel / self.particle_spacing) * self.particle_spacing
+        bed = PolygonWall(name="bed", points=((self.bed_start(), 0.0), (length + travel, 0.0)))
+        return self.flume(90.0, (bed, seawall), {"seawall": wall}, travel=travel, seawall_body="seawall")

@@ -32,10 +32,6 @@ class RigidBody(ABC):
     centre: tuple[float, ...] = (0.0, 0.0)
     """centre of rotation as drawn, m, that angles and moments refer to"""
 
-    relaxation: float = 1.0
-    """weight w of a new acceleration under the load, a = (1 - w) a_before + w a_new; below 1 for bodies so light that
-    the water in reach of their ghosts outweighs them"""
-
     @abstractmethod
     def motion(self, time: float, position: Array, velocity: Array, load: Array) -> Motion:
         """Return the body's motion at ``time``.
