@@ -51,7 +51,8 @@ def load_case(
     (35.0, 0.02, 'tait')
     """
     if isinstance(source, Case):
-        model, parameters = type(source), source.model_dump(exclude_unset=True)
+        model = type(source)
+        parameters = {name: getattr(source, name) for name in source.model_fields_set}
     elif Path(source).suffix == ".toml":
         name, file_preset, parameters = read_toml(source)
         if not trusted:

@@ -260,11 +260,16 @@ class Simulation:
         ------
         InputError: when the state belongs to another case.
         """
-        count = len(state["ids"])
+        count = len(state.get("ids", ()))
         own = {name: array.shape for name, array in self.state().items()}
         wanted = {name: _with_count(shape, name, count, self.ghost_count) for name, shape in own.items()}
         if {name: array.shape for name, array in state.items()} != wanted or not 0 < count <= self.particle_count:
             raise InputError("the saved state belongs to another case: its particles, walls or bodies differ")
+        ids, reference = state["ids"], state["reference"]
+        finite = all(np.all(np.isfinite(array)) for array in state.values())
+        numbered = ids.min() >= 0 and ids.max() < self.particle_count and len(np.unique(ids)) == count
+        if not (finite and numbered and np.all((reference >= self._lower) & (reference <= self._upper))):
+            raise InputError("the saved state is damaged: its numbers are not those of particles in the domain")
         if count != self.fluid_count:
             kept = np.arange(self.fluid_count) < count
             self._resize(count)

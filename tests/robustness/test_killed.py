@@ -1,0 +1,100 @@
+"""A run that is killed at any moment, again and again, ends with the same bits as one that is not."""
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+import xarray as xr
+
+from sphframe import open_dataset, run
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.filterwarnings("ignore::sphframe.cases.CaseWarning"),
+    pytest.mark.skipif(sys.platform == "win32", reason="SIGKILL and fork are POSIX"),
+]
+KILLS = 20
+
+
+def test_killed_twenty_times_it_ends_with_the_same_bits(small: ModuleType, tmp_path: Path) -> None:
+    undisturbed = run(small.small_case(2), output=tmp_path / "whole.nc", threads=1)
+    folder = tmp_path / "killed"
+    folder.mkdir()
+    steps, output = folder / "steps.txt", folder / "run.nc"
+    generator = random.Random(20190511)
+    moments = []
+
+    with subprocess.Popen(
+        [sys.executable, "-W", "ignore", str(Path(small.__file__))],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as server:
+        assert server.stdin is not None
+        assert server.stdout is not None
+
+        def start() -> int:
+            print(folder, file=server.stdin, flush=True)
+            return int(server.stdout.readline())
+
+        for attempt in range(KILLS):
+            seen = lines(steps)
+            process = start()
+            if attempt % 7 == 6:  # while it sets up, or opens its files
+                time.sleep(generator.uniform(0.0, 1.0))
+            else:
+                wanted = seen + generator.randint(1, 60)
+                while lines(steps) < wanted:
+                    time.sleep(0.001)
+                time.sleep(generator.uniform(0.0, 0.005))
+            os.kill(process, signal.SIGKILL)
+            assert server.stdout.readline() == "killed\n", f"attempt {attempt}: the case is too short for this test"
+            moments.append(check_readable(output))
+        start()
+        assert server.stdout.readline() == "complete\n"
+        server.stdin.close()
+
+    assert len({moment for moment in moments if moment}) > 5, f"too few different moments: {moments}"
+    with open_dataset(output) as resumed:
+        small.assert_same_bits(undisturbed.dataset, resumed)
+        assert resumed.attrs["completed"] == "yes"
+    assert sorted(file.name for file in folder.glob("run*")) == ["run.nc"]
+    check_recomputed(steps, small.CHECKPOINT_INTERVAL, float(undisturbed.dataset.time_step.max()))
+
+
+def lines(path: Path) -> int:
+    """Number of lines, 0 where there is no file."""
+    return path.read_bytes().count(b"\n") if path.exists() else 0
+
+
+def check_readable(output: Path) -> int:
+    """Open what a killed run has left, with plain xarray and with ours; return the number of samples."""
+    if not output.exists():
+        return 0
+    with xr.open_dataset(output) as dataset:
+        dataset.load()
+    with open_dataset(output) as dataset:
+        dataset.load()
+        assert dataset.attrs["run_status"] == "running"
+        assert (dataset["density"] > 0.0).all()
+        return dataset.sizes["probe_time"]
+
+
+def check_recomputed(steps: Path, interval: float, time_step: float) -> None:
+    """Each resumed run starts at most one interval (and the step that passes it) before where the last one ended."""
+    reached, starts = 0.0, 0
+    for line in steps.read_text().splitlines():
+        word, _, value = line.rpartition(" ")
+        if word == "start":
+            starts += 1
+            assert reached - float(value) <= interval + 2.0 * time_step, f"recomputed {reached - float(value):g} s"
+            reached = float(value)
+        else:
+            reached = float(value)
+    assert starts >= KILLS // 2
