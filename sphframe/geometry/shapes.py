@@ -78,15 +78,32 @@ def inside_polygon(position: Array, corners: Array) -> NDArray[np.bool_]:
 
 
 def lattice(region: PolygonRegion | BoxRegion, spacing: float) -> Array:
-    """Positions (n, dim) of the lattice cells whose centres lie in ``region``.
+    """Positions (n, dim) of particles that fill ``region`` in cells of edge ``spacing``.
 
-    Cells of edge ``spacing`` are counted from the region's lower corner, so the first particle lies half a spacing
-    from a wall there. An edge that is not a whole number of spacings is rounded to the nearest one.
+    In a box the cells are counted from the lower corner, so the first particle lies half a spacing from a wall there;
+    an edge that is not a whole number of spacings is rounded to the nearest one. In a polygon the rows are, and each
+    row is divided evenly between the edges that it meets: along a leaning wall no gap is left and no particle touches
+    it, from which pressure waves would start.
     """
     lower, upper = np.asarray(region.lower), np.asarray(region.upper)
     counts = np.maximum(np.rint((upper - lower) / spacing).astype(int), 1)
     axes = [low + (np.arange(count) + 0.5) * spacing for low, count in zip(lower, counts, strict=True)]
-    position = np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
     if isinstance(region, BoxRegion):
-        return position
-    return position[region.contains(position)]
+        return np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
+    rows = [np.empty((0, 2))]
+    for y in axes[1]:
+        crossings = _crossings(np.array(region.points), y)
+        for left, right in zip(crossings[::2], crossings[1::2], strict=True):
+            count = round((right - left) / spacing)
+            x = left + (np.arange(count) + 0.5) / max(count, 1) * (right - left)
+            rows.append(np.stack([x, np.full(count, y)], axis=1))
+    return np.vstack(rows)
+
+
+def _crossings(corners: Array, y: float) -> list[float]:
+    """Sorted x at which the polygon's edges cross the height ``y``; an even number of them."""
+    crossings = []
+    for (x1, y1), (x2, y2) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        if (y1 > y) != (y2 > y):
+            crossings.append(float(x1 + (y - y1) * (x2 - x1) / (y2 - y1)))
+    return sorted(crossings)

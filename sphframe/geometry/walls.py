@@ -265,12 +265,17 @@ def _corner_ghosts(corner: Array, t1: Array, n1: Array, t2: Array, n2: Array, de
     if abs(turn - math.pi / 2) < 1e-6:  # a right angle: carry on the lattice of both faces
         a, b = np.meshgrid(depths, depths, indexing="ij")
         return corner + a.reshape(-1, 1) * n1 + b.reshape(-1, 1) * n2
+    # rings of whole numbers of ghosts, each as wide as their volume needs: too many here would push the corner empty
     rings = []
     spacing = 2.0 * depths[0]
-    for radius in depths:
-        count = max(round(turn * radius / spacing), 1)
+    inner, ghosts = 0.0, 0
+    for depth in depths:
+        count = max(round(turn * depth / spacing), 1)
+        ghosts += count
+        outer = math.sqrt(2.0 * ghosts / turn) * spacing
         angle = math.atan2(n1[1], n1[0]) + turn * (np.arange(count) + 0.5) / count
-        rings.append(corner + radius * np.stack([np.cos(angle), np.sin(angle)], axis=1))
+        rings.append(corner + 0.5 * (inner + outer) * np.stack([np.cos(angle), np.sin(angle)], axis=1))
+        inner = outer
     return np.vstack(rings)
 
 
