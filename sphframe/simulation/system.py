@@ -216,10 +216,7 @@ class FluidSystem(System):
             self.find_loads()
         for k, body in enumerate(self.boundary.bodies.values()):
             if body.needs_load:
-                motion = self._ask_body(time, k, body)
-                before = self.motions[k].acceleration
-                relaxed = before + body.relaxation * (motion.acceleration - before)
-                self.motions[k] = motion._replace(acceleration=relaxed)
+                self.motions[k] = self._ask_body(time, k, body)
         for k, motion in enumerate(self.motions):
             self._body_rates[0, k] = motion.velocity
             self._body_rates[1, k] = motion.acceleration
