@@ -86,7 +86,8 @@ def _rebind(template: Callable[..., Any], bound: dict[str, Any]) -> types.Functi
 def _pieces(item: Any, seen: set[int]) -> Iterator[str]:
     """Walk over everything that determines compiled code, as strings in a fixed order."""
     if isinstance(item, Dispatcher):
-        yield repr(sorted(item.targetoptions.items(), key=repr))
+        for option in sorted(item.targetoptions):
+            yield from _pieces((option, item.targetoptions[option]), seen)
         item = item.py_func
     if isinstance(item, types.FunctionType):
         if id(item) in seen:
@@ -110,7 +111,16 @@ def _pieces(item: Any, seen: set[int]) -> Iterator[str]:
         for part in item:
             yield from _pieces(part, seen)
     else:
-        yield f"{type(item).__qualname__} {item!r}"
+        yield _constant(item)
+
+
+def _constant(item: Any) -> str:
+    """Text of a constant; sets are put in order, which otherwise changes from process to process."""
+    if isinstance(item, set | frozenset):
+        item = sorted(map(_constant, item))
+    elif isinstance(item, tuple):
+        item = [_constant(part) for part in item]
+    return f"{type(item).__qualname__} {item!r}"
 
 
 def _plain_name(function: types.FunctionType) -> str:
@@ -124,6 +134,6 @@ def _code_pieces(code: types.CodeType) -> Iterator[str]:
         if isinstance(constant, types.CodeType):
             yield from _code_pieces(constant)
         else:
-            yield f"{type(constant).__qualname__} {constant!r}"
+            yield _constant(constant)
 
 

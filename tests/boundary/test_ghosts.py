@@ -1,0 +1,162 @@
+"""Ghosts: exact fields, slip conditions, wall acceleration and statuses, in the compiled loop of the solver."""
+
+import numpy as np
+import pytest
+
+from sphframe.boundary.boundary import Boundary
+from sphframe.equations_of_state.linear import Linear
+from sphframe.geometry import BoxRegion, BoxWall, lattice
+from sphframe.interfaces import CompiledKernel, Motion, RigidBody, Status
+from sphframe.kernels.gaussian import RenormalisedGaussian
+from sphframe.neighbours import NeighbourLists
+from sphframe.particles import Columns
+from sphframe.registry import create
+from sphframe.specialise import compile_part
+
+METHODS = ["improved-shepard", "shepard", "normalized", "sfdi", "mls-linear", "mls-quadratic", "mdbc", "adami"]
+LINEAR_EXACT = ["sfdi", "mls-linear", "mls-quadratic"]
+DENSITY, GRAVITY, SPEED = 1000.0, 9.81, 50.0
+SPACING = 0.1
+
+
+class Still(RigidBody):
+    """A body that stands still but is being accelerated."""
+
+    def __init__(self, acceleration=(0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0)):
+        self.acceleration, self.velocity = np.array(acceleration, float), np.array(velocity, float)
+
+    def motion(self, time, position, velocity, load):
+        return Motion(np.zeros(3), self.velocity, self.acceleration)
+
+
+class Basin:
+    """A box of fluid with every side walled but the top, particles jittered."""
+
+    def __init__(self, method, dim=2, *, lift="balanced", slip="free", body=None, jitter=0.2):
+        shape = RenormalisedGaussian()
+        self.kernel = CompiledKernel(
+            compile_part(shape.value_function()),
+            compile_part(shape.gradient_function()),
+            shape.support,
+            shape.normalisation(dim),
+        )
+        self.dim, self.h = dim, 1.3 * SPACING
+        side = 1.2 if dim == 2 else 0.8
+        wall = BoxWall(
+            lower=(0.0,) * dim, upper=(side,) * dim, open_faces=("+y" if dim == 2 else "+z",), body=body and "body"
+        )
+        self.boundary = Boundary(
+            (wall,),
+            {"body": body} if body else {},
+            create("interpolators", method),
+            self.kernel,
+            Linear(),
+            spacing=SPACING,
+            support=self.kernel.support * self.h,
+            no_slip=slip == "no",
+            balanced=lift == "balanced",
+        )
+        position = lattice(BoxRegion(lower=(0.0,) * dim, upper=(side,) * dim), SPACING)
+        position += np.random.default_rng(0).uniform(-jitter, jitter, position.shape) * SPACING
+        self.n = len(position)
+        c = self.columns = Columns(dim)
+        self.rows = c.empty(self.n + self.boundary.count)
+        self.rows[: self.n, c.position] = position
+        self.rows[: self.n, c.volume] = SPACING**dim
+        self.rows[: self.n, c.density] = DENSITY
+        force = np.zeros(dim)
+        force[-1] = -DENSITY * GRAVITY
+        motions = [body.motion(0.0, None, None, None)] if body else []
+        self.boundary.move(motions, self.rows[self.n :], force, DENSITY)
+        self.lists = NeighbourLists(dim, self.n, self.boundary.count, self.kernel.support * self.h, 0.0)
+        self.rows[: self.n] = self.rows[: self.n][self.lists.sort(self.rows)]
+        self.lists.build(self.rows, self.boundary.points)
+
+    def fill(self):
+        self.boundary.fill(
+            self.rows,
+            self.lists,
+            kernel_scale=self.kernel.normalisation / self.h**self.dim,
+            reference_density=DENSITY,
+            sound_speed=SPEED,
+        )
+        ghosts, c = self.rows[self.n :], self.columns
+        wet = self.boundary.statuses != Status.DRY
+        return wet, ghosts[:, c.position], ghosts[:, c.velocity], ghosts[:, c.pressure], ghosts[:, c.density]
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("method", METHODS)
+def test_balanced_lift_is_exact_on_a_hydrostatic_field(method, dim):
+    basin = Basin(method, dim)
+    c = basin.columns
+    fluid = basin.rows[: basin.n]
+    fluid[:, c.pressure] = 5e4 - DENSITY * GRAVITY * fluid[:, dim - 1]
+    wet, position, _, pressure, density = basin.fill()
+    assert wet.any()
+    expected = 5e4 - DENSITY * GRAVITY * position[:, -1]
+    np.testing.assert_allclose(pressure[wet], expected[wet], rtol=1e-9)
+    np.testing.assert_allclose(density[wet], DENSITY + pressure[wet] / SPEED**2, rtol=1e-13)
+
+
+@pytest.mark.parametrize("method", LINEAR_EXACT)
+def test_mirror_lift_is_exact_for_methods_that_reproduce_linear_fields(method):
+    basin = Basin(method, lift="mirror")
+    c = basin.columns
+    fluid = basin.rows[: basin.n]
+    fluid[:, c.pressure] = 5e4 - DENSITY * GRAVITY * fluid[:, 1]
+    wet, position, _, pressure, _ = basin.fill()
+    ok = basin.boundary.statuses == Status.OK
+    np.testing.assert_allclose(pressure[ok], 5e4 - DENSITY * GRAVITY * position[ok, 1], rtol=1e-9)
+
+
+@pytest.mark.parametrize("lift", ["balanced", "mirror"])
+def test_wall_acceleration_enters_the_pressure(lift):
+    body = Still(acceleration=(3.0, 0.0, 0.0))
+    basin = Basin("mls-linear", body=body, lift=lift)
+    c = basin.columns
+    fluid = basin.rows[: basin.n]
+    fluid[:, c.pressure] = 5e4 - DENSITY * (GRAVITY * fluid[:, 1] + 3.0 * fluid[:, 0])
+    wet, position, _, pressure, _ = basin.fill()
+    ok = basin.boundary.statuses == Status.OK
+    expected = 5e4 - DENSITY * (GRAVITY * position[:, 1] + 3.0 * position[:, 0])
+    np.testing.assert_allclose(pressure[ok], expected[ok], rtol=1e-9)
+
+
+@pytest.mark.parametrize("method", [m for m in METHODS if m != "adami"])
+@pytest.mark.parametrize("slip", ["free", "no"])
+def test_velocities_beside_one_face(method, slip):
+    """Normal velocity linear in the distance and, for no slip, the tangential one too, are continued exactly."""
+    body = Still(velocity=(0.5, -0.25, 0.0))
+    basin = Basin(method, slip=slip, body=body)
+    c = basin.columns
+    fluid = basin.rows[: basin.n]
+    depth = fluid[:, 1]
+    fluid[:, c.velocity] = [0.5, -0.25]
+    fluid[:, c.velocity.start + 1] += 2.0 * depth
+    fluid[:, c.velocity.start] += 3.0 * depth if slip == "no" else 3.0
+    wet, position, velocity, _, _ = basin.fill()
+    below = wet & (position[:, 1] < 0.0) & (np.abs(position[:, 0] - 0.6) < 0.15)
+    np.testing.assert_allclose(velocity[below, 1], -0.25 + 2.0 * position[below, 1], rtol=1e-9, atol=1e-9)
+    tangential = 0.5 + (3.0 * position[below, 1] if slip == "no" else 3.0)
+    np.testing.assert_allclose(velocity[below, 0], tangential, rtol=1e-9, atol=1e-9)
+
+
+def test_a_wall_does_not_pull():
+    basin = Basin("normalized")
+    basin.rows[: basin.n, basin.columns.pressure] = -1e5
+    _, _, _, pressure, _ = basin.fill()
+    assert (pressure == 0.0).all()
+
+
+def test_dry_ghosts_have_no_pressure_and_the_velocity_of_the_wall():
+    basin = Basin("improved-shepard", body=Still(velocity=(0.5, 0.0, 0.0)))
+    c = basin.columns
+    basin.rows[: basin.n, c.position] += [0.0, 100.0]
+    basin.rows[: basin.n] = basin.rows[: basin.n][basin.lists.sort(basin.rows)]
+    basin.lists.build(basin.rows, basin.boundary.points)
+    wet, _, velocity, pressure, density = basin.fill()
+    assert not wet.any()
+    np.testing.assert_array_equal(velocity, np.broadcast_to([0.5, 0.0], velocity.shape))
+    assert (pressure == 0.0).all()
+    assert (density == DENSITY).all()

@@ -1,0 +1,49 @@
+"""Neighbour lists against brute force."""
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from sphframe.neighbours import NeighbourLists
+from sphframe.particles import Columns
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    dim=st.sampled_from([2, 3]),
+    seed=st.integers(0, 2**31),
+    fluid=st.integers(1, 120),
+    ghosts=st.integers(0, 60),
+    scale=st.sampled_from([1e-6, 1.0, 1e3]),
+    stretch=st.floats(0.05, 20.0),
+)
+def test_lists_hold_exactly_the_pairs_within_the_radius(dim, seed, fluid, ghosts, scale, stretch):
+    random = np.random.default_rng(seed)
+    columns = Columns(dim)
+    rows = columns.empty(fluid + ghosts)
+    rows[:, columns.position] = random.uniform(-1.0, 1.0, (fluid + ghosts, dim)) * [stretch, *[1.0] * (dim - 1)] * scale
+    points = random.uniform(-1.5, 1.5, (ghosts, dim)) * scale
+    lists = NeighbourLists(dim, fluid, ghosts, support=0.4 * scale, skin=0.05 * scale)
+    order = lists.sort(rows)
+    assert sorted(order) == list(range(fluid))
+    rows[:fluid] = rows[:fluid][order]
+    lists.build(rows, points)
+    position = rows[:, columns.position]
+    for i in range(fluid):
+        near = np.linalg.norm(position - position[i], axis=1) < lists.radius
+        near[i] = False
+        first, second = int(lists.fluid_counts[i]), int(lists.ghost_counts[i])
+        found = lists.fluid[i, : first + second].astype(int)
+        assert sorted(found[:first]) == list(np.flatnonzero(near[:fluid]))
+        assert sorted(found[first:]) == list(fluid + np.flatnonzero(near[fluid:]))
+    for k in range(ghosts):
+        near = np.linalg.norm(position[:fluid] - points[k], axis=1) < lists.radius
+        found = lists.points[k, : lists.point_counts[k]].astype(int)
+        assert sorted(found) == list(np.flatnonzero(near))
+
+
+def test_sorting_is_stable():
+    columns = Columns(2)
+    rows = columns.empty(5)
+    lists = NeighbourLists(2, 5, 0, support=1.0, skin=0.1)
+    assert list(lists.sort(rows)) == [0, 1, 2, 3, 4]

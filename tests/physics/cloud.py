@@ -1,0 +1,110 @@
+"""A random cloud with ghosts, its neighbour lists by brute force, and the loops compiled for it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sphframe.interfaces import CompiledKernel
+from sphframe.kernels.gaussian import RenormalisedGaussian
+from sphframe.kernels.wendland import WendlandC2
+from sphframe.particles import Columns
+from sphframe.physics import density_gradient, fluid_rates
+from sphframe.specialise import compile_part, specialise
+
+KERNELS = {"gaussian": RenormalisedGaussian(), "wendland-c2": WendlandC2()}
+
+
+@dataclass
+class Cloud:
+    dim: int
+    rows: np.ndarray
+    fluid_count: int
+    kernel: CompiledKernel
+    h: float
+    lists: np.ndarray
+    fluid_counts: np.ndarray
+    ghost_counts: np.ndarray
+
+    @property
+    def support(self):
+        return self.kernel.support * self.h
+
+    @property
+    def gradient_scale(self):
+        return self.kernel.normalisation / self.h ** (self.dim + 2)
+
+    def columns(self):
+        return Columns(self.dim)
+
+    def grad_kernel(self, x_ji):
+        """grad_i W_ij, (n, dim), from the offsets x_j - x_i: the slow way."""
+        r = np.linalg.norm(x_ji, axis=1)
+        factor = np.array([self.kernel.gradient(q) if q < self.kernel.support else 0.0 for q in r / self.h])
+        return -self.gradient_scale * factor[:, None] * x_ji
+
+    def density_gradient(self):
+        loop = specialise(
+            density_gradient, {"DIM": self.dim, "SUPPORT": self.kernel.support, "GRADIENT": self.kernel.gradient}
+        )
+        gradient = np.full((self.fluid_count, self.dim), np.nan)
+        loop(self.rows, self.lists, self.fluid_counts, self.support, self.gradient_scale, gradient)
+        return gradient
+
+    def rates(self, gradient, *, diffusion=0.0, viscosity=0.0, gravity=0.0, continuity=True, momentum=True):
+        loop = specialise(
+            fluid_rates,
+            {
+                "DIM": self.dim,
+                "SUPPORT": self.kernel.support,
+                "GRADIENT": self.kernel.gradient,
+                "CONTINUITY": continuity,
+                "MOMENTUM": momentum,
+            },
+        )
+        rates = np.full((self.fluid_count, 2 * self.dim + 1), np.nan)
+        loop(
+            self.rows, gradient, self.lists, self.fluid_counts, self.ghost_counts, self.support, self.gradient_scale,
+            diffusion, viscosity, gravity, rates,
+        )  # fmt: skip
+        return rates
+
+
+def make_cloud(dim, seed=0, *, kernel="gaussian", cells=6, ghosts=True, jitter=0.3, spacing=0.1):
+    """A jittered lattice; with ``ghosts``, its lowest two layers are ghosts."""
+    random = np.random.default_rng(seed)
+    axes = np.meshgrid(*[np.arange(cells) * spacing] * dim, indexing="ij")
+    position = np.stack([a.ravel() for a in axes], axis=1)
+    position = position + random.uniform(-jitter, jitter, position.shape) * spacing
+    ghost = (position[:, -1] < 1.5 * spacing) if ghosts else np.zeros(len(position), bool)
+    order = np.argsort(ghost, kind="stable")
+    position, n = position[order], int((~ghost).sum())
+    columns = Columns(dim)
+    rows = columns.empty(len(position))
+    rows[:, columns.position] = position
+    rows[:, columns.velocity] = random.normal(size=(len(position), dim))
+    rows[:, columns.density] = 1000.0 + random.normal(size=len(position))
+    rows[:, columns.pressure] = random.normal(size=len(position)) * 1000.0
+    rows[:, columns.mass] = random.uniform(0.8, 1.2, len(position)) * 1000.0 * spacing**dim
+    rows[:, columns.volume] = rows[:, columns.mass] / rows[:, columns.density]
+    shape = KERNELS[kernel]
+    compiled = CompiledKernel(
+        compile_part(shape.value_function()),
+        compile_part(shape.gradient_function()),
+        shape.support,
+        shape.normalisation(dim),
+    )
+    h = 1.3 * spacing
+    reach = 1.1 * shape.support * h
+    fluid, counts, ghost_counts = [], [], []
+    for i in range(n):
+        near = np.flatnonzero(np.linalg.norm(position - position[i], axis=1) < reach)
+        near = near[near != i]
+        fluid.append(near)  # fluid rows come first, so fluid neighbours do
+        counts.append(int((near < n).sum()))
+        ghost_counts.append(int((near >= n).sum()))
+    lists = np.zeros((n, max(map(len, fluid))), np.uint32)
+    for i, near in enumerate(fluid):
+        lists[i, : len(near)] = near
+    return Cloud(
+        dim, rows, n, compiled, h, lists, np.array(counts, np.uint32), np.array(ghost_counts, np.uint32)
+    )
