@@ -63,7 +63,6 @@ def watch(
     speed2, moved2, broken, outside, first_outside, astray, first_astray = _watch_fluid(
         rows, reference, case.dimension, lower, upper, lowest, highest
     )
-    _watch_boundary(system, case)
 
     def stop(index: int, what: str, causes: str) -> NoReturn:
         row = rows[index]
@@ -75,7 +74,8 @@ def watch(
         )
 
     if broken < n:
-        stop(broken, "has a state that is not finite", f"{_STEP_IS_TOO_LONG}, or a component of your own returned NaN")
+        stop(broken, "has a state that is not finite", f"{_STEP_IS_TOO_LONG}, or a component that returned NaN")
+    _watch_ghosts(system, case)
     if outside and guards.domain == "stop":
         stop(
             first_outside,
@@ -101,15 +101,9 @@ def _outside(position: Array, lower: Array, upper: Array) -> NDArray[np.bool_]:
     return gone
 
 
-def _watch_boundary(system: FluidSystem, case: Case) -> None:
+def _watch_ghosts(system: FluidSystem, case: Case) -> None:
     boundary = system.boundary
-    for name, motion in zip(boundary.bodies, system.motions, strict=True):
-        if not np.all(np.isfinite(motion)):
-            raise SimulationError(
-                f"body {name!r} ({type(boundary.bodies[name]).__name__}) has a motion that is not finite: {motion};"
-                " likely causes: an error in its motion(), or a load from a flow that has become unphysical"
-            )
-    g = _watch_ghosts(system.rows, system.fluid_count, case.dimension, boundary.statuses, len(Status))
+    g = _first_bad_ghost(system.rows, system.fluid_count, case.dimension, boundary.statuses, len(Status))
     if g < boundary.count:
         row, columns = system.rows[system.fluid_count + g], system.columns
         raise SimulationError(
@@ -141,8 +135,8 @@ def check_time_step(step: float, at_rest: float, speed: float) -> None:
     if step < COLLAPSED * at_rest:
         raise SimulationError(
             f"the time step has collapsed to {step:.3g} s, from {at_rest:.3g} s at rest, for a speed of"
-            f" {speed:.3g} m/s; likely causes: a Courant number above the stability limit (set a smaller courant_number), or a sound"
-            " speed too low for the flow (raise sound_speed)"
+            f" {speed:.3g} m/s; likely causes: a Courant number above the stability limit (set a smaller"
+            " courant_number), or a sound speed too low for the flow (raise sound_speed)"
         )
 
 
@@ -288,7 +282,7 @@ def _watch_fluid(rows, reference, dim, lower, upper, lowest, highest):  # type: 
 
 
 @numba.njit(cache=True)
-def _watch_ghosts(rows, first, dim, statuses, status_count):  # type: ignore[no-untyped-def]
+def _first_bad_ghost(rows, first, dim, statuses, status_count):  # type: ignore[no-untyped-def]
     """Return the first ghost whose state is not finite or whose status is none; their number where all is well."""
     for g in range(statuses.shape[0]):
         total = rows[first + g, 2 * dim] + rows[first + g, 2 * dim + 1]

@@ -2,7 +2,8 @@
 
 import math
 import time as clock
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 import numba
@@ -71,7 +72,9 @@ class Simulation:
             "integrator": create("integrators", case.integrator.name, **case.integrator.options),
         }
         shape, state = self.components["kernel"], self.components["equation_of_state"]
-        with naming_component(case, running=False):
+        self.time = self.time_step = self.wall_clock = 0.0
+        self.step = 0
+        with self._dating_errors(), naming_component(case, running=False):
             self._set_up(shape, state)
 
     def _set_up(self, shape: Kernel, state: EquationOfState) -> None:
@@ -125,10 +128,6 @@ class Simulation:
         self._sample = sample
         self._panels = wall_panels(self.scene.walls, spacing)
 
-        self.time = 0.0
-        self.step = 0
-        self.time_step = 0.0
-        self.wall_clock = 0.0
         self.densities_outside = 0
         self.samples = self.frames = 0
         self.between_steps = True
@@ -169,7 +168,7 @@ class Simulation:
         SimulationError: when the guards find something wrong in the new state, or a component fails.
         """
         began = clock.perf_counter()
-        try:
+        with self._dating_errors():
             self.time_step = self._next_time_step(self._speed)
             travelled = max(self._moved, self.boundary.displacement) + 1.2 * self._speed * self.time_step
             if 2.0 * travelled > self.lists.skin:
@@ -183,11 +182,16 @@ class Simulation:
             self._stale = True
             self._watch()
             self.between_steps = True
+        self.wall_clock += clock.perf_counter() - began
+
+    @contextmanager
+    def _dating_errors(self) -> Iterator[None]:
+        """Tell errors when they happened."""
+        try:
+            yield
         except SimulationError as error:
             error.time, error.step = self.time, self.step
             raise
-        finally:
-            self.wall_clock += clock.perf_counter() - began
 
     def _watch(self) -> None:
         """Look at the new state; remove the particles that have left the domain, if the case says so."""
@@ -480,7 +484,10 @@ class Simulation:
                         hook.sphframe_probes_due(simulation=self)
                         self.samples += 1
                     if self._is_due(self.frames, self.case.frame_interval):
-                        self._check_promises()
+                        with self._dating_errors():
+                            check_promises(
+                                self.system, self.components["interpolator"], self.components["kernel"], self.case
+                            )
                         hook.sphframe_frame_due(simulation=self)
                         self.frames += 1
                     if self.time >= self.case.until:
@@ -492,13 +499,6 @@ class Simulation:
                 hook.sphframe_run_failed(simulation=self, error=error)
                 raise
             hook.sphframe_run_finished(simulation=self)
-
-    def _check_promises(self) -> None:
-        try:
-            check_promises(self.system, self.components["interpolator"], self.components["kernel"], self.case)
-        except SimulationError as error:
-            error.time, error.step = self.time, self.step
-            raise
 
     def _is_due(self, number: int, interval: float) -> bool:
         return self.time >= number * interval - 1e-9 * interval

@@ -226,11 +226,14 @@ class FluidSystem(System):
         try:
             motion = body.motion(time, self.body_position[k], self.body_velocity[k], load)
             self.body_position[k], self.body_velocity[k] = motion.position, motion.velocity
+            fault = "" if np.all(np.isfinite(motion)) or not np.all(np.isfinite(load)) else f"returned {motion}"
         except Exception as error:
+            fault = f"raised {type(error).__name__}: {error}"
+        if fault:
             raise SimulationError(
-                f"body {list(self.boundary.bodies)[k]!r} failed: {type(body).__name__}.motion at t = {time:.6g} s"
-                f" raised {type(error).__name__}: {error}; mend it: it must return a Motion of three arrays of three numbers"
-            ) from error
+                f"body {list(self.boundary.bodies)[k]!r} failed: {type(body).__name__}.motion at t = {time:.6g} s with"
+                f" load {load} {fault}; mend it: it must return a Motion of three arrays of three finite numbers"
+            )
         return motion
 
     def put_back(self, spacing: float) -> int:
