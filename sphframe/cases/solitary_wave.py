@@ -119,9 +119,9 @@ class SolitaryWaveFlume(Case):
 def run_up_along(toe: Array, upward: Array, depth: float, spacing: float, ratio: float) -> Callable[[Fields], float]:
     """Return the function that measures the height of the water on a wall above still water, m; -depth where dry.
 
-    Along the wall the filling sum_j W_j dx^2 of the particles nearby falls from one half to zero where the water ends.
-    The edge is taken where it passes its value at the edge of still water, the part of the full circle that the water
-    fills there, so that the run-up of still water is zero.
+    It is read on a line parallel to the wall, two smoothing lengths within the water, where the wall does not cut the
+    kernel: there the filling sum_j W_j dx^2 is one in the water and one half at its surface. Nearer to the wall, the
+    outermost column of particles may stand up to one spacing higher.
 
     Parameters
     ----------
@@ -129,23 +129,23 @@ def run_up_along(toe: Array, upward: Array, depth: float, spacing: float, ratio:
     depth: m; ``spacing``: m; ``ratio``: smoothing length over spacing.
     """
     h, step = ratio * spacing, 0.25 * spacing
-    threshold = math.acos(float(upward[0])) / (2.0 * math.pi)
-    normal = np.array([upward[1], -upward[0]])
+    inward = np.array([-upward[1], upward[0]])
+    start = toe + 2.0 * h * inward
 
     def run_up(fluid: Fields) -> float:
-        offset = fluid.position - toe
-        along, across = offset @ upward, offset @ normal
+        offset = fluid.position - start
+        along, across = offset @ upward, offset @ inward
         near = np.abs(across) < 3.0 * h
         if not np.any(near):
             return -depth
         s = np.arange(0.0, max(float(along[near].max()), 0.0) + 3.0 * h + step, step)
         q2 = ((s[:, None] - along[near]) ** 2 + across[near] ** 2) / h**2
         filling = np.where(q2 < 9.0, np.exp(-q2), 0.0).sum(axis=1) * spacing**2 / (math.pi * h**2)
-        wet = np.flatnonzero(filling >= threshold)
+        wet = np.flatnonzero(filling >= 0.5)
         if not len(wet):
             return -depth
         k = int(wet[-1])
-        edge = s[k] + step * (filling[k] - threshold) / (filling[k] - filling[k + 1])
-        return float(edge * upward[1] - depth)
+        edge = s[k] + step * (filling[k] - 0.5) / (filling[k] - filling[k + 1])
+        return float(start[1] + edge * upward[1] - depth)
 
     return run_up
