@@ -1,7 +1,7 @@
 """Geometry: walls -> fluid lattice, ghost particles, mirror points."""
 
 from sphframe.geometry.panels import Panels, wall_panels
-from sphframe.geometry.shapes import BoxRegion, PolygonRegion, Region, lattice
+from sphframe.geometry.shapes import BoxRegion, PolygonRegion, Region, lattice, lattice_cell
 from sphframe.geometry.walls import BoxWall, GhostPoints, PolygonWall, Wall, wall_ghosts
 
 __all__ = [
@@ -14,6 +14,7 @@ __all__ = [
     "Region",
     "Wall",
     "lattice",
+    "lattice_cell",
     "wall_ghosts",
     "wall_panels",
 ]

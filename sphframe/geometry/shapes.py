@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-__all__ = ["BoxRegion", "PolygonRegion", "Region", "inside_polygon", "lattice"]
+__all__ = ["BoxRegion", "PolygonRegion", "Region", "inside_polygon", "lattice", "lattice_cell"]
 
 Array = NDArray[np.float64]
 
@@ -78,32 +78,24 @@ def inside_polygon(position: Array, corners: Array) -> NDArray[np.bool_]:
 
 
 def lattice(region: PolygonRegion | BoxRegion, spacing: float) -> Array:
-    """Positions (n, dim) of particles that fill ``region`` in cells of edge ``spacing``.
+    """Positions (n, dim) of the centres of the :func:`lattice_cell` cells that lie in ``region``.
 
-    In a box the cells are counted from the lower corner, so the first particle lies half a spacing from a wall there;
-    an edge that is not a whole number of spacings is rounded to the nearest one. In a polygon the rows are, and each
-    row is divided evenly between the edges that it meets: along a leaning wall no gap is left and no particle touches
-    it, from which pressure waves would start.
+    Cells are counted from the region's lower corner, so the first particle lies half a cell from a wall there. A box
+    is filled from face to face; of a polygon's bounding box those cells are taken whose centres lie inside.
     """
     lower, upper = np.asarray(region.lower), np.asarray(region.upper)
-    counts = np.maximum(np.rint((upper - lower) / spacing).astype(int), 1)
-    axes = [low + (np.arange(count) + 0.5) * spacing for low, count in zip(lower, counts, strict=True)]
+    cell = lattice_cell(region, spacing)
+    counts = np.maximum(np.rint((upper - lower) / cell).astype(int), 1)
+    axes = [low + (np.arange(count) + 0.5) * edge for low, count, edge in zip(lower, counts, cell, strict=True)]
+    position = np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
     if isinstance(region, BoxRegion):
-        return np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
-    rows = [np.empty((0, 2))]
-    for y in axes[1]:
-        crossings = _crossings(np.array(region.points), y)
-        for left, right in zip(crossings[::2], crossings[1::2], strict=True):
-            count = round((right - left) / spacing)
-            x = left + (np.arange(count) + 0.5) / max(count, 1) * (right - left)
-            rows.append(np.stack([x, np.full(count, y)], axis=1))
-    return np.vstack(rows)
+        return position
+    return position[region.contains(position)]
 
 
-def _crossings(corners: Array, y: float) -> list[float]:
-    """Sorted x at which the polygon's edges cross the height ``y``; an even number of them."""
-    crossings = []
-    for (x1, y1), (x2, y2) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        if (y1 > y) != (y2 > y):
-            crossings.append(float(x1 + (y - y1) * (x2 - x1) / (y2 - y1)))
-    return sorted(crossings)
+def lattice_cell(region: PolygonRegion | BoxRegion, spacing: float) -> Array:
+    """Edges (dim,) of a lattice cell, m: ``spacing``, or in a box the nearest length of which a whole number fits."""
+    extent = np.asarray(region.upper, dtype=np.float64) - np.asarray(region.lower, dtype=np.float64)
+    if isinstance(region, BoxRegion):
+        return np.asarray(extent / np.maximum(np.rint(extent / spacing), 1.0))
+    return np.full(len(extent), spacing)

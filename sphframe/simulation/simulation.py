@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.cases.case import Case, Fields, Scene
 from sphframe.errors import InputError, SimulationError
-from sphframe.geometry import lattice, wall_panels
+from sphframe.geometry import lattice, lattice_cell, wall_panels
 from sphframe.interfaces import CompiledKernel, EquationOfState, Kernel, Motion, Status
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
@@ -99,7 +99,12 @@ class Simulation:
         self.smoothing_length, self.support = self.parameters.smoothing_length, self.parameters.support
         self.columns = Columns(dim)
 
-        position = np.vstack([lattice(region, spacing) for region in self.scene.fluid])
+        lattices = [lattice(region, spacing) for region in self.scene.fluid]
+        position = np.vstack(lattices)
+        volumes = [
+            np.full(len(part), np.prod(lattice_cell(region, spacing)))
+            for part, region in zip(lattices, self.scene.fluid, strict=True)
+        ]
         _check_scene(self.scene, position, dim)
         self.boundary = Boundary(
             self.scene.walls,
@@ -115,7 +120,7 @@ class Simulation:
         self.particle_count = self.fluid_count = len(position)
         self.ghost_count = self.boundary.count
         self.lists = self._new_lists()
-        rows = self._initial_rows(position, compile_part(state.density_function()))
+        rows = self._initial_rows(position, np.concatenate(volumes), compile_part(state.density_function()))
         self.system = FluidSystem(rows, self.fluid_count, self.boundary, self.lists, kernel, state, self.parameters)
         self._ids = np.arange(self.fluid_count)
         self._reference = np.zeros((self.fluid_count, dim))
@@ -137,7 +142,7 @@ class Simulation:
         self.initial_energy = sum(self.energies().values())
         self._watch()
 
-    def _initial_rows(self, position: Array, density: Any) -> Array:
+    def _initial_rows(self, position: Array, volumes: Array, density: Any) -> Array:
         case, columns = self.case, self.columns
         if self.scene.initial_pressure is not None:
             pressure = self.scene.initial_pressure(position)
@@ -147,14 +152,15 @@ class Simulation:
                 surface - position[:, -1], density, case.reference_density, self.sound_speed, case.gravity
             )
         rows = columns.empty(self.fluid_count + self.ghost_count)
-        n, volume = self.fluid_count, case.particle_spacing**case.dimension
+        n, ghost_volume = self.fluid_count, case.particle_spacing**case.dimension
         rows[:n, columns.position] = position
         rows[:n, columns.pressure] = pressure
         rows[:n, columns.density] = [density(p, case.reference_density, self.sound_speed) for p in pressure]
-        rows[:n, columns.mass] = rows[:n, columns.density] * volume
+        rows[:n, columns.volume] = volumes
+        rows[:n, columns.mass] = rows[:n, columns.density] * volumes
         rows[n:, columns.density] = case.reference_density
-        rows[n:, columns.mass] = case.reference_density * volume
-        rows[:, columns.volume] = volume
+        rows[n:, columns.volume] = ghost_volume
+        rows[n:, columns.mass] = case.reference_density * ghost_volume
         rows[n:, columns.position] = self.boundary.position
         return rows
 

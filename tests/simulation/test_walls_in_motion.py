@@ -192,7 +192,7 @@ def test_run_up_follows_water_added_at_the_wall() -> None:
     simulation = Simulation(case, threads=1)
     fields = simulation.fields()
     raised = fields._replace(position=fields.position + np.array([0.0, 0.0333]))
-    assert measure(raised) == pytest.approx(0.0333, abs=1e-5)
+    assert measure(raised) == pytest.approx(0.0333, abs=1e-4)
     assert measure(fields._replace(position=fields.position - np.array([9.0, 0.0]))) == -0.25
 
 
