@@ -69,10 +69,31 @@ app = typer.Typer(
 Kind = Annotated[str | None, typer.Argument(metavar="KIND", help="interpolators, kernels, cases, ...; all by default")]
 Preset = Annotated[str | None, typer.Option(metavar="NAME", help="one of the case's presets, such as paper")]
 
+
+def _whole_number(text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        raise typer.BadParameter(f"{text!r} is not a whole number, such as 4") from None
+
+
+def _seconds(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise typer.BadParameter(f"{text!r} is not a number of seconds, such as 0.5") from None
+
+
+Threads = Annotated[int | None, typer.Option(parser=_whole_number, metavar="N", help="threads; by default all cores")]
 Every = Annotated[
-    float, typer.Option(metavar="SECONDS", help="wall-clock time between checkpoints, beside the output; 0 for none")
+    float,
+    typer.Option(
+        parser=_seconds, metavar="SECONDS", help="wall-clock time between checkpoints, beside the output; 0 for none"
+    ),
 ]
-Interval = Annotated[float | None, typer.Option(metavar="SECONDS", help="simulated time between checkpoints")]
+Interval = Annotated[
+    float | None, typer.Option(parser=_seconds, metavar="SECONDS", help="simulated time between checkpoints")
+]
 
 
 def main() -> None:
@@ -104,7 +125,7 @@ def _run(
         typer.Option("--set", metavar="KEY=VALUE", help="a parameter, such as particle_spacing=0.01; repeatable"),
     ] = None,
     until: Annotated[str | None, typer.Option(metavar="SECONDS", help="simulated time at which to stop")] = None,
-    threads: Annotated[int | None, typer.Option(help="threads; by default all cores")] = None,
+    threads: Threads = None,
     output: Annotated[Path | None, typer.Option(metavar="FILE", help="by default CASE.nc in this folder")] = None,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="replace files of an earlier run")] = False,
     checkpoint_every: Every = 60.0,
@@ -130,7 +151,7 @@ def _run(
 @app.command("resume")
 def _resume(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="output file (.nc) of a run that did not end")],
-    threads: Annotated[int | None, typer.Option(help="threads; by default all cores")] = None,
+    threads: Threads = None,
     trust: Annotated[bool, typer.Option("--trust", help="import code that the file names as module:attribute")] = False,
     checkpoint_every: Every = 60.0,
     checkpoint_interval: Interval = None,

@@ -58,9 +58,9 @@ def construct(component: type, label: str, given: Mapping[str, Any]) -> Any:
 
 def _checked(what: str, value: Any, hint: Any) -> Any:
     """Return ``value`` as an object of the type ``hint``: "4" and 4 are floats, true is none."""
-    choices = {hint, *typing.get_args(hint)} if _hashable(hint) else set()
+    choices = [hint, *typing.get_args(hint)]
     expected = hint.__name__ if isinstance(hint, type) else str(hint).replace("typing.", "")
-    if isinstance(value, bool) and choices & {int, float} and bool not in choices:
+    if isinstance(value, bool) and (int in choices or float in choices) and bool not in choices:
         raise InputError(f"{what} = {value!r}: input should be a number; expected {expected}")
     try:
         adapter = TypeAdapter[Any](hint, config=_CONFIG)
@@ -99,14 +99,6 @@ def _not_a_field(component: type, name: str) -> str:
     if name in vars(component).get("__annotations__", {}) and not dataclasses.is_dataclass(component):
         return f": write @dataclass(frozen=True) above {component.__name__} to make its fields options."
     return ""
-
-
-def _hashable(hint: Any) -> bool:
-    try:
-        hash(hint)
-    except TypeError:
-        return False
-    return True
 
 
 def _lower(message: str) -> str:
