@@ -22,12 +22,12 @@ class PolygonRegion(BaseModel):
     @property
     def lower(self) -> Array:
         """Lower corner of the bounding box, m."""
-        return np.min(self.points, axis=0)
+        return np.asarray(np.min(self.points, axis=0))
 
     @property
     def upper(self) -> Array:
         """Upper corner of the bounding box, m."""
-        return np.max(self.points, axis=0)
+        return np.asarray(np.max(self.points, axis=0))
 
     def contains(self, position: Array) -> NDArray[np.bool_]:
         """Whether each ``position`` (n, 2) lies inside."""
@@ -50,7 +50,7 @@ class BoxRegion(BaseModel):
 
     def contains(self, position: Array) -> NDArray[np.bool_]:
         """Whether each ``position`` (n, dim) lies inside."""
-        return np.all((position >= self.lower) & (position <= self.upper), axis=1)
+        return np.asarray(np.all((position >= self.lower) & (position <= self.upper), axis=1))
 
 
 Region = Annotated[PolygonRegion | BoxRegion, Field(discriminator="shape")]
@@ -78,19 +78,35 @@ def inside_polygon(position: Array, corners: Array) -> NDArray[np.bool_]:
 
 
 def lattice(region: PolygonRegion | BoxRegion, spacing: float) -> Array:
-    """Positions (n, dim) of the centres of the :func:`lattice_cell` cells that lie in ``region``.
+    """Positions (n, dim) of the centres of the :func:`lattice_cell` cells that fill ``region``.
 
     Cells are counted from the region's lower corner, so the first particle lies half a cell from a wall there. A box
-    is filled from face to face; of a polygon's bounding box those cells are taken whose centres lie inside.
+    is filled from face to face. In a polygon each row of cells is divided evenly between the edges that it meets: along
+    a leaning wall no gap is left and no particle touches it, from which pressure waves would start.
     """
     lower, upper = np.asarray(region.lower), np.asarray(region.upper)
     cell = lattice_cell(region, spacing)
     counts = np.maximum(np.rint((upper - lower) / cell).astype(int), 1)
     axes = [low + (np.arange(count) + 0.5) * edge for low, count, edge in zip(lower, counts, cell, strict=True)]
-    position = np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
     if isinstance(region, BoxRegion):
-        return position
-    return position[region.contains(position)]
+        return np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
+    rows = [np.empty((0, 2))]
+    for y in axes[1]:
+        crossings = _crossings(np.array(region.points), y)
+        for left, right in zip(crossings[::2], crossings[1::2], strict=True):
+            count = round((right - left) / spacing)
+            x = left + (np.arange(count) + 0.5) / max(count, 1) * (right - left)
+            rows.append(np.stack([x, np.full(count, y)], axis=1))
+    return np.vstack(rows)
+
+
+def _crossings(corners: Array, y: float) -> list[float]:
+    """Sorted x at which the polygon's edges cross the height ``y``; an even number of them."""
+    crossings = []
+    for (x1, y1), (x2, y2) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        if (y1 > y) != (y2 > y):
+            crossings.append(float(x1 + (y - y1) * (x2 - x1) / (y2 - y1)))
+    return sorted(crossings)
 
 
 def lattice_cell(region: PolygonRegion | BoxRegion, spacing: float) -> Array:
