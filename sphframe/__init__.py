@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     from sphframe.interfaces.scratch import local_array
     from sphframe.output import open_dataset
     from sphframe.registry import available, create
-    from sphframe.simulation import Run, Simulation, resume, run
+    from sphframe.simulation.run import Run, resume, run
+    from sphframe.simulation.simulation import Simulation
 
 __version__ = "0.1.0"
 
@@ -66,7 +67,7 @@ _HOMES = {
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
-__all__ = [  # noqa: RUF022
+__all__ = [
     "DRY",
     "OK",
     "SINGULAR",

@@ -42,7 +42,9 @@ def specialise(template: Callable[..., Any], parts: dict[str, Any], *, parallel:
     key = f"{fingerprint(function)}{'p' if parallel else 's'}"
     if key not in _loops:
         function.__qualname__ = f"{template.__qualname__}_{key}"
-        _loops[key] = numba.njit(parallel=parallel, cache=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz"})(function)
+        _loops[key] = numba.njit(
+            parallel=parallel, cache=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz"}
+        )(function)
     return _loops[key]
 
 
@@ -70,7 +72,7 @@ def fingerprint(function: Any) -> str:
 
 
 def _jit_is_disabled() -> bool:
-    return bool(numba.config.DISABLE_JIT)
+    return bool(numba.config.DISABLE_JIT)  # type: ignore[attr-defined]
 
 
 def _rebind(template: Callable[..., Any], bound: dict[str, Any]) -> types.FunctionType:
@@ -135,5 +137,3 @@ def _code_pieces(code: types.CodeType) -> Iterator[str]:
             yield from _code_pieces(constant)
         else:
             yield _constant(constant)
-
-

@@ -87,9 +87,7 @@ def template(values):
 
 
 def in_new_process(folder):
-    result = subprocess.run(
-        [sys.executable, "-c", PROGRAM], cwd=folder, capture_output=True, text=True, check=True
-    )
+    result = subprocess.run([sys.executable, "-c", PROGRAM], cwd=folder, capture_output=True, text=True, check=True)
     value, hits = result.stdout.split()
     return float(value), int(hits)
 

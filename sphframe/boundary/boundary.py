@@ -105,7 +105,7 @@ class Boundary:
         return len(self.wall)
 
     def _scratch_for(self, capacity: int) -> None:
-        chunks = 8 * int(numba.config.NUMBA_NUM_THREADS)
+        chunks = 8 * int(numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
         self._offsets = np.zeros((chunks, capacity, self.dim))
         self._columns = np.zeros((chunks, 4, capacity))
         self._members = np.zeros((chunks, capacity), np.uint32)

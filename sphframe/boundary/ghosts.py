@@ -20,13 +20,15 @@ tank at rest with the normalised method by 1.5 % of rho g H, without s).
 
 Departs from the paper: its pressure condition lacks the wall's own acceleration; the balanced lift, exact on a
 hydrostatic field for any weights that sum to one, and s are this project's; so is the limit at zero, without which
-suction draws particles of thin jets through the wall (dam break at H/30: three particles; with it none). A method that evaluates at the ghost always
-uses the balanced lift (there is no distance to lift over otherwise); one that extrapolates uses none.
+suction draws particles of thin jets through the wall (dam break at H/30: three particles; with it none). A method
+that evaluates at the ghost always uses the balanced lift (there is no distance to lift over otherwise); one that
+extrapolates uses none.
 
 Source: X. Huang et al. (2019), doi:10.3390/w11051110, section 2.2 and Eqs. 8, 13, 16, 21.
 """
 
 import math
+from typing import Any
 
 import numba
 
@@ -41,19 +43,19 @@ BALANCED = True
 EXTRAPOLATED = False
 
 
-def VALUE(q):  # type: ignore[no-untyped-def]  # noqa: N802
+def VALUE(q: Any) -> Any:  # noqa: N802
     """Stand for w(q) of the kernel."""
 
 
-def WEIGHTS(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]  # noqa: N802
+def WEIGHTS(offsets: Any, distances: Any, kernel_values: Any, volumes: Any, support: Any, lift: Any, out: Any) -> Any:  # noqa: N802
     """Stand for the method's weights."""
 
 
-def FALLBACK(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]  # noqa: N802
+def FALLBACK(offsets: Any, distances: Any, kernel_values: Any, volumes: Any, support: Any, lift: Any, out: Any) -> Any:  # noqa: N802
     """Stand for the method's fallback."""
 
 
-def DENSITY(pressure, reference_density, sound_speed):  # type: ignore[no-untyped-def]  # noqa: N802
+def DENSITY(pressure: Any, reference_density: Any, sound_speed: Any) -> Any:  # noqa: N802
     """Stand for the inverse equation of state."""
 
 

@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Panels:
-    """Panel ``centre`` (k, dim), m; ``area`` (k, dim), the area vector pointing out of the fluid, m^(dim-1); ``wall``."""
+    """Panel ``centre`` (k, dim), m; ``area`` (k, dim), the area vector out of the fluid, m^(dim-1); ``wall`` (k,)."""
 
     centre: Array
     area: Array

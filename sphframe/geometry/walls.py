@@ -87,7 +87,7 @@ class PolygonWall(BaseModel):
         start, end = self.segments()
         tangent = (end - start) / np.linalg.norm(end - start, axis=1, keepdims=True)
         normal = np.stack([tangent[:, 1], -tangent[:, 0]], axis=1)
-        depths = (np.arange(layers) + 0.5) * spacing
+        depths: Array = (np.arange(layers, dtype=np.float64) + 0.5) * spacing
         found: list[Array] = []
         for a, b, n in zip(start, end, normal, strict=True):
             count = max(round(float(np.linalg.norm(b - a)) / spacing), 1)
@@ -226,7 +226,7 @@ class BoxWall(BaseModel):
     def is_behind(self, position: Array) -> NDArray[np.bool_]:
         """Whether each ``position`` (n, dim) lies behind a closed face (outside the fluid)."""
         low, high = self._reach()
-        return np.any((position < low) | (position > high), axis=1)
+        return np.asarray(np.any((position < low) | (position > high), axis=1))
 
 
 Wall = Annotated[PolygonWall | BoxWall, Field(discriminator="shape")]

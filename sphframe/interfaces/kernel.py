@@ -18,8 +18,8 @@ class Kernel(ABC):
         grad W(x) = sigma_d / h^(d+2) * (w'(q)/q) * x
 
     An author supplies w, w'(q)/q (finite at q = 0) and sigma_d. The two functions are compiled by sphframe: plain
-    arithmetic and ``math`` on one float, best without branches (the loops vectorise). A value they return for q slightly
-    beyond the support is discarded.
+    arithmetic and ``math`` on one float, best without branches (the loops vectorise). A value they return for q
+    slightly beyond the support is discarded.
     """
 
     support: ClassVar[float]

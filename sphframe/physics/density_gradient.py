@@ -12,6 +12,7 @@ doi:10.1016/j.cma.2010.12.016.
 """
 
 import math
+from typing import Any
 
 import numba
 
@@ -22,7 +23,7 @@ DIM = 2
 SUPPORT = 3.0  # R/h
 
 
-def GRADIENT(q):  # type: ignore[no-untyped-def]  # noqa: N802
+def GRADIENT(q: Any) -> Any:  # noqa: N802
     """Stand for w'(q)/q of the kernel."""
 
 

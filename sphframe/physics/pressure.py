@@ -1,5 +1,7 @@
 """Physics: pressure from the equation of state, and the volume V = m / rho."""
 
+from typing import Any
+
 import numba
 
 __all__ = ["update_pressure"]
@@ -8,7 +10,7 @@ __all__ = ["update_pressure"]
 DIM = 2
 
 
-def PRESSURE(density, reference_density, sound_speed):  # type: ignore[no-untyped-def]  # noqa: N802
+def PRESSURE(density: Any, reference_density: Any, sound_speed: Any) -> Any:  # noqa: N802
     """Stand for the equation of state."""
 
 

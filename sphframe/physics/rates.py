@@ -4,6 +4,7 @@ CONTINUITY and MOMENTUM say which of the two equations a specialised loop evalua
 """
 
 import math
+from typing import Any
 
 import numba
 
@@ -19,7 +20,7 @@ CONTINUITY = True
 MOMENTUM = True
 
 
-def GRADIENT(q):  # type: ignore[no-untyped-def]  # noqa: N802
+def GRADIENT(q: Any) -> Any:  # noqa: N802
     """Stand for w'(q)/q of the kernel."""
 
 

@@ -10,6 +10,7 @@ wall, where half of the support is empty; it is the same for every interpolation
 """
 
 import math
+from typing import Any
 
 import numba
 
@@ -20,7 +21,7 @@ DIM = 2
 SUPPORT = 3.0  # R/h
 
 
-def VALUE(q):  # type: ignore[no-untyped-def]  # noqa: N802
+def VALUE(q: Any) -> Any:  # noqa: N802
     """Stand for w(q) of the kernel."""
 
 

@@ -12,6 +12,7 @@ Departs from the paper: its Eq. 29 takes a pressure difference, which is zero on
 """
 
 import math
+from typing import Any
 
 import numba
 
@@ -24,7 +25,7 @@ DIM = 2
 SUPPORT = 3.0  # R/h
 
 
-def GRADIENT(q):  # type: ignore[no-untyped-def]  # noqa: N802
+def GRADIENT(q: Any) -> Any:  # noqa: N802
     """Stand for w'(q)/q of the kernel."""
 
 

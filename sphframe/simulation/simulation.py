@@ -515,7 +515,7 @@ def _samples(until: float, interval: float) -> int:
 
 
 def _use_threads(threads: int | None) -> int:
-    available = int(numba.config.NUMBA_NUM_THREADS)
+    available = int(numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
     if threads is not None and not 1 <= threads <= available:
         raise InputError(f"threads = {threads}, but this machine offers 1 to {available}")
     numba.set_num_threads(threads or available)

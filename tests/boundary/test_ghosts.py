@@ -105,7 +105,7 @@ def test_mirror_lift_is_exact_for_methods_that_reproduce_linear_fields(method):
     c = basin.columns
     fluid = basin.rows[: basin.n]
     fluid[:, c.pressure] = 5e4 - DENSITY * GRAVITY * fluid[:, 1]
-    wet, position, _, pressure, _ = basin.fill()
+    _, position, _, pressure, _ = basin.fill()
     ok = basin.boundary.statuses == Status.OK
     np.testing.assert_allclose(pressure[ok], 5e4 - DENSITY * GRAVITY * position[ok, 1], rtol=1e-9)
 
@@ -117,7 +117,7 @@ def test_wall_acceleration_enters_the_pressure(lift):
     c = basin.columns
     fluid = basin.rows[: basin.n]
     fluid[:, c.pressure] = 5e4 - DENSITY * (GRAVITY * fluid[:, 1] + 3.0 * fluid[:, 0])
-    wet, position, _, pressure, _ = basin.fill()
+    _, position, _, pressure, _ = basin.fill()
     ok = basin.boundary.statuses == Status.OK
     expected = 5e4 - DENSITY * (GRAVITY * position[:, 1] + 3.0 * position[:, 0])
     np.testing.assert_allclose(pressure[ok], expected[ok], rtol=1e-9)

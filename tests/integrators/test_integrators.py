@@ -39,9 +39,7 @@ class Oscillator:
         self.total = [t + weight * f for t, f in zip(self.total, (self.v, self.a, self.r), strict=True)]
 
     def advance(self, interval):
-        self.x, self.u, self.rho = (
-            y + interval * f for y, f in zip(self.start, (self.v, self.a, self.r), strict=True)
-        )
+        self.x, self.u, self.rho = (y + interval * f for y, f in zip(self.start, (self.v, self.a, self.r), strict=True))
 
     def advance_total(self, interval):
         self.x, self.u, self.rho = (y + interval * f for y, f in zip(self.start, self.total, strict=True))

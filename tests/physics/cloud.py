@@ -105,6 +105,4 @@ def make_cloud(dim, seed=0, *, kernel="gaussian", cells=6, ghosts=True, jitter=0
     lists = np.zeros((n, max(map(len, fluid))), np.uint32)
     for i, near in enumerate(fluid):
         lists[i, : len(near)] = near
-    return Cloud(
-        dim, rows, n, compiled, h, lists, np.array(counts, np.uint32), np.array(ghost_counts, np.uint32)
-    )
+    return Cloud(dim, rows, n, compiled, h, lists, np.array(counts, np.uint32), np.array(ghost_counts, np.uint32))

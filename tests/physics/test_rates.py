@@ -139,11 +139,10 @@ def test_wall_reaction_is_opposite_to_what_ghosts_do_to_the_fluid(dim):
     ghosts = len(cloud.rows) - cloud.fluid_count
     walls = (np.arange(ghosts) % 2).astype(np.int64)
     loads, partial = np.full((2, 3), np.nan), np.full((7, 2, 3), np.nan)
-    loop = specialise(
-        wall_reaction, {"DIM": dim, "SUPPORT": cloud.kernel.support, "GRADIENT": cloud.kernel.gradient}
-    )
+    loop = specialise(wall_reaction, {"DIM": dim, "SUPPORT": cloud.kernel.support, "GRADIENT": cloud.kernel.gradient})
     loop(
         cloud.rows, cloud.fluid_count, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, walls,
-        np.full_like(walls, -1), np.zeros((ghosts, dim)), np.zeros((2, dim)), cloud.support, cloud.gradient_scale, viscosity, partial, loads,
+        np.full_like(walls, -1), np.zeros((ghosts, dim)), np.zeros((2, dim)), cloud.support, cloud.gradient_scale,
+        viscosity, partial, loads,
     )  # fmt: skip
     np.testing.assert_allclose(loads[:, :dim].sum(axis=0), expected, rtol=1e-10)
