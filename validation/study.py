@@ -45,7 +45,9 @@ class _Patience:
             print(f"  {self.label}: t = {simulation.time:.3f} s of {simulation.case.until:g} s", flush=True)
 
 
-def dataset_of(case: str, path: Path, *, again: bool, threads: int | None, **parameters: Any) -> xr.Dataset:
+def dataset_of(
+    case: sphframe.Case | str, path: Path, *, again: bool, threads: int | None, **parameters: Any
+) -> xr.Dataset:
     """Run ``case`` into ``path`` unless a completed run of the same case is there; return what there is of it.
 
     A run that goes wrong is told and its file returned as far as it came: the table shows it.
