@@ -159,7 +159,7 @@ class FluidSystem(System):
         self.find_body_rates(time)
 
     def move_walls(self, time: float) -> None:
-        """Carry the ghosts to where the bodies are; a body under load keeps its acceleration of the evaluation before."""
+        """Carry the ghosts to where the bodies are; a body under load keeps its last acceleration."""
         for k, body in enumerate(self.boundary.bodies.values()):
             motion = self._ask_body(time, k, body)
             kept = self.motions[k].acceleration if body.needs_load else motion.acceleration
