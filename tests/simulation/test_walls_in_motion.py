@@ -104,6 +104,7 @@ def test_tank_swung_with_no_net_change_returns_to_rest() -> None:
     assert simulation.particles_outside() == 0
 
 
+@pytest.mark.slow
 def test_floating_box_finds_archimedes_draught() -> None:
     case = FloatingBody(
         depth=0.3, tank_length=0.8, box_length=0.24, box_height=0.16, particle_spacing=0.01, initial_draught=0.06
@@ -131,6 +132,7 @@ def test_box_with_a_draught_of_one_particle_is_steady() -> None:
     assert np.abs(simulation.body_motions()["box"].position[:2]).max() < 0.005
 
 
+@pytest.mark.slow
 def test_spring_wall_waits_for_its_threshold_then_gives_way() -> None:
     common: dict[str, Any] = {"tank_length": 1.0, "wave_height": 0.08, "particle_spacing": 0.01}
     simulation = Simulation(SolitaryWaveMovableWall(**common), threads=1)

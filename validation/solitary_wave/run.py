@@ -30,7 +30,7 @@ HELD = {
     "sound_speed": 10.0 * (9.81 * 0.2) ** 0.5,
     "time_step": 5e-4,
     "hydrostatic_lift": "mirror",
-    "until": 4.5,
+    "until": 4.0,
     "probe_interval": 0.002,
     "frame_interval": 0.1,
 }
@@ -61,28 +61,28 @@ def seawall_force(dataset: xr.Dataset, by: str = "wall_force") -> xr.DataArray:
     return dataset[by].sel(wall=wall, space="x") / still
 
 
-def vertical_figures(dataset: xr.Dataset, ratio: float, travel: tuple[float, float]) -> dict[str, Any]:
-    """Key figures of a wave of height ``ratio`` d on a vertical wall; speed and loss are taken in ``travel``, m."""
-    depth = dataset.attrs["depth"]
-    x, t, height = crests(dataset)
+def vertical_figures(ratio: float, flume: xr.Dataset, travel: tuple[float, float], wall: xr.Dataset) -> dict[str, Any]:
+    """Key figures of a wave of height ``ratio`` d: speed, loss in ``travel`` (m) of ``flume``; the rest at ``wall``."""
+    depth, gravity = flume.attrs["depth"], flume.attrs["gravity"]
+    x, t, height = crests(flume)
     on_the_way = (x >= travel[0]) & (x <= travel[1])
-    speed = np.polyfit(t[on_the_way], x[on_the_way], 1)[0] / np.sqrt(dataset.attrs["gravity"] * depth)
+    speed = np.polyfit(t[on_the_way], x[on_the_way], 1)[0] / np.sqrt(gravity * depth)
     slope, start = np.polyfit(x[on_the_way] / depth, height[on_the_way] / depth, 1)
-    first = start + slope * travel[0] / depth
+    sent = start + slope * travel[0] / depth
+    run_up, force = wall["run_up"], seawall_force(wall)
     return {
-        "ratio": ratio,
-        "height_sent": first,
-        "height_at_wall": start + slope * dataset["gauge_x"].values[-1] / depth,
-        "speed": speed,
-        "speed_error": 100.0 * (speed / EXACT[ratio]["speed"] - 1.0),
-        "loss_over_20_depths": -2000.0 * slope / first,
-        "run_up": float(dataset["run_up"].max()) / depth,
-        "run_up_error": 100.0 * (float(dataset["run_up"].max()) / depth / EXACT[ratio]["run_up"] - 1.0),
-        "force": float(seawall_force(dataset).max()),
-        "force_by_pressure": float(seawall_force(dataset, "wall_force_by_pressure").max()),
-        "force_error": 100.0 * (float(seawall_force(dataset).max()) / EXACT[ratio]["force"] - 1.0),
-        "lag": float(seawall_force(dataset).idxmax() - dataset["run_up"].idxmax()) / dataset.sph.time_scale,
-        "outside": int(dataset["particles_outside"].max()),
+        "A/d asked for": ratio,
+        "A/d sent": float(sent),
+        "speed": float(speed),
+        "speed, error": float(100.0 * (speed / EXACT[ratio]["speed"] - 1.0)),
+        "height lost over 20 d": float(-2000.0 * slope / sent) if travel[1] - travel[0] >= 20.0 * depth else np.nan,
+        "run-up": float(run_up.max()) / depth,
+        "run-up, error": 100.0 * (float(run_up.max()) / depth / EXACT[ratio]["run_up"] - 1.0),
+        "force": float(force.max()),
+        "force, error": 100.0 * (float(force.max()) / EXACT[ratio]["force"] - 1.0),
+        "force by pressure": float(seawall_force(wall, "wall_force_by_pressure").max()),
+        "force peaks after run-up by": float(force.idxmax() - run_up.idxmax()) / wall.sph.time_scale,
+        "behind walls": int(max(data["particles_outside"].max() for data in (flume, wall))),
     }
 
 
@@ -91,24 +91,25 @@ def leaning_figures(name: str, dataset: xr.Dataset) -> dict[str, Any]:
     p = dataset["probe_pressure"]
     x, t, height = crests(dataset)
     speed, start = np.polyfit(t[3:-1], x[3:-1], 1)
-    end = float(dataset["probe_time"][-1])
-    # before the wave is felt: until its crest is 6 depths away
-    quiet = p.sel(probe_time=slice(0.05, (x[-1] - start) / speed - 6.0 * dataset.attrs["depth"] / speed - 0.5))
+    toe = float(np.max(x)) / 0.9
+    arrival = (toe - start) / speed
+    quiet = p.sel(probe_time=slice(0.05, arrival - 8.0 * dataset.attrs["depth"] / speed))
     return {
         "method": name,
         "completed": dataset.attrs["run_status"],
-        "end": end,
-        "static_P0": float(quiet[:, 0].mean()),
-        "static_P1": float(quiet[:, 1].mean()),
-        "noise_P0": float(quiet[:, 0].std()),
-        "peak_P0": float(p[:, 0].max()),
-        "peak_P1": float(p[:, 1].max()),
-        "height": float(np.median(height[3:-1])) / dataset.attrs["depth"],
-        "speed": speed,
-        "arrival": (float(np.max(x)) / 0.9 - start) / speed,
-        "run_up": float(dataset["run_up"].max()) / dataset.attrs["depth"],
+        "flume (m)": toe,
+        "P0 before the wave (Pa)": float(quiet[:, 0].mean()),
+        "P0 before the wave, std (Pa)": float(quiet[:, 0].std()),
+        "P1 before the wave (Pa)": float(quiet[:, 1].mean()),
+        "P1 before the wave, std (Pa)": float(quiet[:, 1].std()),
+        "P0 largest (Pa)": float(p[:, 0].max()),
+        "P1 largest (Pa)": float(p[:, 1].max()),
+        "A/d sent": float(np.median(height[3:-1])) / dataset.attrs["depth"],
+        "crest at the toe (s)": float(arrival),
+        "crest at the toe by Rayleigh's c (s)": sphframe.load_case(FLUME, "paper").paddle().arrival_time(toe),
+        "run-up": float(dataset["run_up"].max()) / dataset.attrs["depth"],
         "force": float(seawall_force(dataset).max()),
-        "outside": int(dataset["particles_outside"].max()),
+        "behind walls": int(dataset["particles_outside"].max()),
     }
 
 
@@ -125,17 +126,16 @@ def movable_figures(dataset: xr.Dataset) -> dict[str, Any]:
     onset = float(t[np.argmax(x > 0.0)])
     quiet = (t > 0.05) & (t < onset - 0.5)
     return {
-        "onset": onset,
-        "force_before": float(force[quiet].mean()),
-        "force_noise_before": float(force[quiet].std()),
-        "force_peak": float(force.max()),
-        "force_peak_time": float(t[force.argmax()]),
-        "bed_pressure_peak_time": float(dataset["probe_pressure"][:, 0].idxmax()),
-        "x_at_4_s": 2.5 + float(np.interp(4.0, t, x)),
-        "lowest_displacement": float(x.min()),
-        "work_over_energy": float(work[-1] / energy[-1]),
-        "run_up": float(dataset["run_up"].max()) / dataset.attrs["depth"],
-        "outside": int(dataset["particles_outside"].max()),
+        "wall begins to move (s)": onset,
+        "F before the wave": float(force[quiet].mean()),
+        "F before the wave, std": float(force[quiet].std()),
+        "F largest": float(force.max()),
+        "F largest at (s)": float(t[force.argmax()]),
+        "bed pressure largest at (s)": float(dataset["probe_pressure"][:, 0].idxmax()),
+        "wall after 4 s (m)": 2.5 + float(np.interp(4.0, t, x)),
+        "smallest displacement (m)": float(x.min()),
+        "work over energy": float(work[-1] / energy[-1]),
+        "behind walls": int(dataset["particles_outside"].max()),
     }
 
 
@@ -205,10 +205,9 @@ def main() -> None:
 
     movable = dataset("solitary-wave-movable-wall", "movable", "paper", frame_interval=0.1)
     held = dataset(FLUME, "held", **HELD)
-    vertical = {
-        0.3: dataset(FLUME, "vertical-0.3", tank_length=8.0, frame_interval=0.25, gauge_positions=GAUGES),
-        0.1: dataset(FLUME, "vertical-0.1", tank_length=5.0, wave_height=0.025, frame_interval=0.25),
-    }
+    long = dataset(FLUME, "vertical-0.3", tank_length=8.0, frame_interval=0.25, gauge_positions=GAUGES)
+    near = dataset(FLUME, "vertical-0.3-near", tank_length=4.0, frame_interval=0.25)
+    low = dataset(FLUME, "vertical-0.1", tank_length=4.0, wave_height=0.025, frame_interval=0.25)
     leaning = {
         method: dataset(
             FLUME,
@@ -221,18 +220,20 @@ def main() -> None:
         )
         for method in arguments.methods
     }
-    travel = {0.3: (2.0, 7.0), 0.1: (2.0, 4.0)}
     tables = {
-        "vertical": [vertical_figures(dataset, ratio, travel[ratio]) for ratio, dataset in vertical.items()],
+        "vertical": [
+            vertical_figures(0.3, long, (2.0, 7.0), near),
+            vertical_figures(0.1, low, (0.8, 2.4), low),
+        ],
         "leaning": [leaning_figures(name, dataset) for name, dataset in leaning.items()],
-        "movable": [movable_figures(movable) | {"fixed_force_peak": float(seawall_force(held).max())}],
+        "movable": [movable_figures(movable) | {"F largest, fixed wall": float(seawall_force(held).max())}],
     }
     for name, rows in tables.items():
-        heads = [str(found.get("ratio", found.get("method", "movable"))) for found in rows]
+        heads = [str(found.get("A/d asked for", found.get("method", "movable"))) for found in rows]
         lines = [
             {"figure": key, **{head: _text(found[key]) for head, found in zip(heads, rows, strict=True)}}
             for key in rows[0]
-            if key not in ("ratio", "method")
+            if key not in ("A/d asked for", "method")
         ]
         print(study.table(lines))
         if not arguments.no_readme:
@@ -240,13 +241,15 @@ def main() -> None:
             study.write_csv(HERE / f"key_figures_{name}.csv", rows, f"solitary wave, {name} wall; lengths over d")
     if not arguments.no_readme:
         draw_movable(movable, held, HERE / "movable_wall.png")
-        draw_vertical(vertical, arguments.reference, HERE / "vertical_wall.png")
+        draw_vertical({0.3: near, 0.1: low}, arguments.reference, HERE / "vertical_wall.png")
         draw_leaning(leaning, HERE / "leaning_wall.png")
         plot_run(movable, times=(2.0, 2.4, 2.8, 4.0), path=HERE / "particles.png")
 
 
 def _text(value: object) -> str:
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
+    if isinstance(value, float):
+        return "-" if np.isnan(value) else f"{value:.4g}"
+    return str(value)
 
 
 if __name__ == "__main__":
