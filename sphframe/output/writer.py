@@ -257,8 +257,8 @@ class NetCDFWriter:
             else:
                 kept = "nothing was written"
             self._abandon()
-            number = getattr(error, "errno", None)
-            if number in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG) or "No space" in str(error):
+            full = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+            if getattr(error, "errno", None) in full or any(os.strerror(number) in str(error) for number in full):
                 cause = "the disk is full or the size limit is reached"
                 remedy = "free some space or choose another --output, or a larger frame_interval"
             else:
