@@ -5,6 +5,7 @@ What a command needs is imported inside it, so that ``sphframe --help`` answers 
 
 import os
 import sys
+import traceback
 import warnings
 from pathlib import Path
 from typing import Annotated, Any
@@ -50,8 +51,10 @@ class _Commands(TyperGroup):
             except Exception as error:
                 if os.environ.get("SPHFRAME_DEBUG") == "1":
                     raise
+                *_, last = traceback.extract_tb(error.__traceback__)
                 _print_error(
-                    f"{type(error).__name__}: {error}\nthis is not a mistake of yours but a defect of sphframe or of a"
+                    f"{type(error).__name__}: {error} (raised in {last.filename}, line {last.lineno})\n"
+                    "this is not a mistake of yours but a defect of sphframe or of a"
                     " plugin; set SPHFRAME_DEBUG=1 to see where it comes from, and please report it"
                 )
                 raise typer.Exit(1) from None
