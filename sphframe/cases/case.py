@@ -165,7 +165,13 @@ class Case(BaseModel, ABC):
 
     dimension: Literal[2, 3] = quantity(2, "1", "dimension of space")
     particle_spacing: float = quantity(..., "m", "spacing of the particles at the start", gt=0)
-    smoothing_length_ratio: float = quantity(1.3, "1", "smoothing length over particle spacing", ge=1.0, le=3.0)
+    smoothing_length_ratio: float = quantity(
+        Derived("1.3 in 2-D, 1.1 in 3-D", lambda case: 1.3 if case.dimension == 2 else 1.1),
+        "1",
+        "smoothing length over particle spacing",
+        ge=1.0,
+        le=3.0,
+    )
     reference_density: float = quantity(1000.0, "kg m-3", "density of the fluid at zero pressure", gt=0)
     gravity: float = quantity(9.81, "m s-2", "acceleration of gravity, downwards along the last axis", ge=0)
     sound_speed: float | None = quantity(None, "m s-1", "reference sound speed; by default 20 sqrt(g H)", gt=0)

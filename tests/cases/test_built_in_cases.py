@@ -110,3 +110,8 @@ def test_derived_defaults_are_recorded_but_not_counted_as_given() -> None:
 def test_made_in_python_a_wrong_parameter_is_an_input_error() -> None:
     with pytest.raises(InputError, match=r"water_heigth is not a parameter; did you mean 'water_height'"):
         DamBreak(water_heigth=0.5)
+
+
+def test_smoothing_length_follows_the_dimension() -> None:
+    assert HydrostaticTank().smoothing_length_ratio == 1.3
+    assert HydrostaticTank(dimension=3).smoothing_length_ratio == 1.1
