@@ -230,7 +230,7 @@ def _doubts(case: Case, scene: Scene) -> Iterator[str]:
         )
     wave_speed = math.sqrt(case.gravity * scene.depth)
     sound_speed = case.sound_speed or 20.0 * wave_speed
-    if sound_speed < 10.0 * wave_speed:
+    if sound_speed < 9.999 * wave_speed:
         yield (
             f"sound_speed = {sound_speed:g} m/s is below 10 sqrt(g H) = {10 * wave_speed:.3g} m/s: densities will vary"
             f" by more than a per cent"
