@@ -60,7 +60,7 @@ def figures(dataset: xr.Dataset, reference: xr.DataArray | None) -> dict[str, An
 
 def row(found: dict[str, Any]) -> dict[str, str]:
     """One line of the README's table."""
-    return {
+    cells = {
         "method": found["method"],
         "front arrives": f"{found['arrival']:.2f}",
         "first peak": f"{found['first_peak']:.2f}",
@@ -73,6 +73,7 @@ def row(found: dict[str, Any]) -> dict[str, str]:
         "fallback": f"{found['fallback']:.2f}",
         "to t = 7": "yes" if found["completed"] == "yes" else f"no, ends at {found['end']:.2f}",
     }
+    return {head: "-" if "nan" in cell else cell for head, cell in cells.items()}
 
 
 def draw(datasets: dict[str, xr.Dataset], reference: xr.DataArray | None, path: Path) -> None:
@@ -121,7 +122,9 @@ def main() -> None:
         )
         draw(datasets, reference, HERE / "wall_pressure.png")
         first = next(iter(datasets.values()))
-        plot_run(first, HERE / "particles.png", times=_moments(first), reference=reference)
+        if reference is not None:
+            reference = reference.rename("Buchner (2002), measured")
+        plot_run(first, times=_moments(first), reference=reference).savefig(HERE / "particles.png", dpi=90)
 
 
 def _pressure_beside_wall(dataset: xr.Dataset, height: float) -> float:
