@@ -38,7 +38,7 @@ def put_back(  # type: ignore[no-untyped-def]
             for d in range(dim):
                 distance2 += (rows[j, d] - rows[i, d]) ** 2
                 span2 += (rows[j, d] - mirror[j - fluid_count, d]) ** 2
-            if distance2 < closest and span2 < 2.25 * spacing * spacing:  # of the first layer: 2 d = 1 spacing
+            if distance2 < closest and span2 < 1.5 * spacing * spacing:  # first layer of a face: 2 d = 1 spacing
                 closest = distance2
                 nearest = j - fluid_count
         if nearest >= 0:

@@ -120,7 +120,7 @@ class PolygonWall(BaseModel):
         return foot, _reflections(position - foot, at_corner)
 
     def is_behind(self, position: Array) -> NDArray[np.bool_]:
-        """Whether each ``position`` (n, 2) lies behind the wall (outside the fluid), judged at the nearest point.
+        """Whether each ``position`` (n, 2) lies behind the wall, not on it, judged at the nearest point.
 
         Beyond the open ends of a polyline nothing is behind it.
         """
@@ -145,7 +145,8 @@ class PolygonWall(BaseModel):
             open_end = ((k == 0) & (raw < 0.0)) | ((k == len(start) - 1) & (raw > 1.0))
             free_ends[take] = (open_end & (not self.closed))[take]
             best = np.minimum(best, distance)
-        return (side > 0.0) & ~free_ends
+        on_wall = best <= _TOLERANCE * np.ptp(np.vstack([start, end]))
+        return np.asarray((side > 0.0) & ~free_ends & ~on_wall)
 
 
 class BoxWall(BaseModel):
@@ -226,7 +227,8 @@ class BoxWall(BaseModel):
     def is_behind(self, position: Array) -> NDArray[np.bool_]:
         """Whether each ``position`` (n, dim) lies behind a closed face (outside the fluid)."""
         low, high = self._reach()
-        return np.asarray(np.any((position < low) | (position > high), axis=1))
+        on_wall = _TOLERANCE * float(np.max(np.subtract(self.upper, self.lower)))
+        return np.asarray(np.any((position < low - on_wall) | (position > high + on_wall), axis=1))
 
 
 Wall = Annotated[PolygonWall | BoxWall, Field(discriminator="shape")]
