@@ -1,3 +1,4 @@
+import signal
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
@@ -46,3 +47,8 @@ def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Install
         del sys.modules[module]
     monkeypatch.undo()
     registry.clear()
+
+
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    # a shell that runs the tests in the background ignores Ctrl-C for them; tests of interruption need it
+    signal.signal(signal.SIGINT, signal.default_int_handler)
