@@ -39,7 +39,7 @@ class MDBC(BoundaryInterpolator):
     Source: English et al. (2022), doi:10.1007/s40571-021-00403-3; Liu & Liu (2006), doi:10.1016/j.apnum.2005.02.012.
     """
 
-    amplification: float = 100.0
+    amplification: float = 10.0
     """largest sum |Phi_j|, by which noise may be amplified"""
 
     traits = Traits(reproduces_degree=1, fewest_points=(3, 4), evaluation_point=EvaluationPoint.EXTRAPOLATED)

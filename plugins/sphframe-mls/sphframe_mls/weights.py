@@ -33,7 +33,7 @@ class LinearMLS(BoundaryInterpolator):
     doi:10.1016/j.cma.2010.12.016; Huang et al., Water 11 (2019).
     """
 
-    amplification: float = 100.0
+    amplification: float = 3.0
     """largest sum |Phi_j|, by which noise may be amplified"""
 
     traits = Traits(reproduces_degree=1, fewest_points=(3, 4))
@@ -54,7 +54,7 @@ class QuadraticMLS(BoundaryInterpolator):
     SINGULAR where they lie on one conic (quadric). The fallback is the kernel average.
     """
 
-    amplification: float = 100.0
+    amplification: float = 3.0
     """largest sum |Phi_j|, by which noise may be amplified"""
 
     traits = Traits(reproduces_degree=2, fewest_points=(6, 10))

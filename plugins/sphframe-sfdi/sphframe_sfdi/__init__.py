@@ -47,13 +47,13 @@ class SFDI(BoundaryInterpolator):
 
     form: Literal["coupled", "printed"] = "coupled"
     """the whole of N, or its diagonal as in the paper"""
-    amplification: float = 100.0
-    """largest sum |Phi_j|, by which noise may be amplified"""
+    amplification: float | None = None
+    """largest sum |Phi_j|, by which noise may be amplified; by default 3, for the printed form 10"""
 
     def __post_init__(self) -> None:
         if self.form not in ("coupled", "printed"):
             raise ValueError(f'form must be "coupled" or "printed", got {self.form!r}')
-        if not self.amplification >= 1.0:
+        if self.amplification is not None and not self.amplification >= 1.0:
             raise ValueError(f"amplification must be a number of at least 1, got {self.amplification!r}")
 
     @property
@@ -67,7 +67,8 @@ class SFDI(BoundaryInterpolator):
         """Return the weights function; it uses the kernel between neighbours."""
         coupled = self.form == "coupled"
         fewest = self.traits.fewest_points[dim - 2]
-        amplification = self.amplification
+        largest = 10.0 if self.form == "printed" else 3.0
+        amplification = largest if self.amplification is None else self.amplification
         kernel_value, smoothing_lengths = kernel.value, kernel.support
         entries = dim * dim
         thinnest = _THINNEST
