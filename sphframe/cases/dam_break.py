@@ -22,6 +22,9 @@ class DamBreak(Case):
     The pressure at the start is that of the corrected series (:mod:`sphframe.cases.dam_break_series`), the gate being
     gone at once. ``P1`` is Buchner's sensor, a disc of 90 mm centred 160 mm above the bed of the right wall (for
     another water height: 0.15 H and 4/15 H), over which the pressure is averaged; ``P1-point`` is its centre alone.
+    ``P1-shifted`` is the same disc half its diameter lower, its top where the sensor's centre was: published
+    simulations of this experiment compare there (Adami et al. 2012, doi:10.1016/j.jcp.2012.05.005, who sample at
+    0.19 H, after M. Greco's finding that it agrees better), and pressure falls steeply with height there.
 
     Diagnostics: ``front_position``, the x of the surge front, and ``column_height``, the height of the water at the
     left wall. Both look at the water within max(H/20, 3 dx) of the bed (wall) and end at the first gap wider than two
@@ -106,15 +109,20 @@ class DamBreak(Case):
             near_wall = fluid.position[:, 0] < band
             return connected_extent(fluid.position[near_wall, -1], gap) + 0.5 * self.particle_spacing
 
-        sensor = with_width(dim, self.tank_length, 0.5 * self.tank_width, height * 4.0 / 15.0)
+        sensor, shifted = (
+            with_width(dim, self.tank_length, 0.5 * self.tank_width, height * share)
+            for share in (4.0 / 15.0, 4.0 / 15.0 - 0.075)
+        )
+        upward = with_width(dim, 0.0, 0.0, 1.0)
         return Scene(
             walls=(tank,),
             fluid=(water_box(dim, length, self.tank_width, height),),
             depth=height,
             domain=domain_above(tank, margin=self.particle_spacing),
             probes=(
-                Probe(name="P1", position=sensor, radius=0.075 * height, tangent=with_width(dim, 0.0, 0.0, 1.0)),
+                Probe(name="P1", position=sensor, radius=0.075 * height, tangent=upward),
                 Probe(name="P1-point", position=sensor),
+                Probe(name="P1-shifted", position=shifted, radius=0.075 * height, tangent=upward),
             ),
             initial_pressure=initial_pressure,
             diagnostics=(

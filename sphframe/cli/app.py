@@ -25,6 +25,8 @@ sphframe {version}: a laboratory for wall boundaries in SPH free-surface flow
 
   sphframe run dam-break        simulate a case (about a minute)
   sphframe resume dam-break.nc  continue a run that was interrupted
+  sphframe compare dam-break    several methods and resolutions side by side
+  sphframe reproduce            the whole paper, with a report of what it shows
   sphframe list                 what is installed: cases, interpolation methods, ...
   sphframe show dam-break       a case's parameters, units, defaults and presets
   sphframe new-plugin           start a boundary interpolation method of your own
@@ -168,6 +170,88 @@ def _resume(
         trusted=trust,
         checkpoint_every=checkpoint_every,
         checkpoint_interval=checkpoint_interval,
+    )
+
+
+Workers = Annotated[
+    int | None,
+    typer.Option(parser=_whole_number, metavar="N", help="processes on this machine; by default one a core"),
+]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(metavar="ADDRESS", help="run on a dask cluster that is there, such as tcp://127.0.0.1:8786"),
+]
+
+
+@app.command("compare")
+def _compare(
+    case: Annotated[str, typer.Argument(metavar="CASE", help="a case's name or a TOML case file")],
+    interpolators: Annotated[
+        str, typer.Option(metavar="NAME,...", help="methods, such as improved-shepard,mls-linear")
+    ] = "improved-shepard",
+    preset: Preset = None,
+    assignments: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="KEY=VALUE",
+            help="a parameter; repeatable. particle_spacing=0.02,0.01,0.005 gives the resolutions",
+        ),
+    ] = None,
+    reference: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="a series p/(rho g H) over t sqrt(g/H) to compare with")
+    ] = None,
+    probe: Annotated[
+        str | None, typer.Option(metavar="NAME", help="the probe to compare; by default the first")
+    ] = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    output: Annotated[Path, typer.Option(metavar="DIR", help="folder for the dataset, report and runs")] = Path(
+        "comparison"
+    ),
+) -> None:
+    """Run a case with several methods and resolutions: one dataset, errors, costs, observed orders."""
+    from sphframe.cli.compare import compare_command
+    from sphframe.cli.values import read_assignments
+
+    compare_command(
+        case,
+        interpolators=interpolators,
+        preset=preset,
+        parameters=read_assignments(assignments or [], {}),
+        reference=reference,
+        probe=probe,
+        workers=workers,
+        scheduler=scheduler,
+        output=output,
+    )
+
+
+@app.command("reproduce")
+def _reproduce(
+    output: Annotated[Path, typer.Option(metavar="DIR", help="folder for the report, figures, tables and runs")],
+    only: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="SECTION",
+            help="hydrostatic-tank, dam-break, fixed-wall, movable-wall or cost; repeatable, or with commas",
+        ),
+    ] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="coarse and short, ten minutes on two cores")] = False,
+    reference: Annotated[Path | None, typer.Option(metavar="DIR", help="folder of reference series")] = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+) -> None:
+    """Reproduce the paper: all its runs, a report with every figure and table, and what became of its claims."""
+    from sphframe.cli.reproduce import reproduce_command
+
+    reproduce_command(
+        only=only or [],
+        quick=quick,
+        reference=reference,
+        workers=workers,
+        scheduler=scheduler,
+        output=output,
     )
 
 

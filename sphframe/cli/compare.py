@@ -1,0 +1,75 @@
+"""CLI: ``sphframe compare``."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from sphframe.cli.reproduce import shown_progress
+from sphframe.cli.run import console_log
+from sphframe.errors import InputError
+from sphframe.reproduction import compare
+from sphframe.reproduction.report import shown
+
+__all__ = ["compare_command"]
+
+
+def compare_command(
+    case: str,
+    *,
+    interpolators: str,
+    preset: str | None,
+    parameters: Mapping[str, Any],
+    reference: Path | None,
+    probe: str | None,
+    workers: int | None,
+    scheduler: str | None,
+    output: Path,
+) -> None:
+    """Compare methods over resolutions, print the table and say what was written."""
+    with shown_progress(console_log()) as watch:
+        comparison = compare(
+            case,
+            [name.strip() for name in interpolators.split(",") if name.strip()],
+            _numbers(parameters.get("particle_spacing")),
+            output=output,
+            preset=preset,
+            parameters={name: value for name, value in parameters.items() if name != "particle_spacing"},
+            reference=reference,
+            probe=probe,
+            workers=workers,
+            scheduler=scheduler,
+            watch=watch,
+        )
+    screen = Console(highlight=False, soft_wrap=True)
+    dataset = comparison.dataset
+    table = Table(box=None, pad_edge=False)
+    for head in ("method", "spacing (m)", "error", "order", "wall clock (s)", "fallback (%)", "to the end"):
+        table.add_column(head)
+    for method in dataset["method"].values:
+        for spacing in dataset["particle_spacing"].values:
+            one = dataset.sel(method=method, particle_spacing=spacing)
+            numbers = (float(one[name]) for name in ("error", "order", "wall_clock", "fallback"))
+            done = "yes" if int(one["completed"]) else "no"
+            table.add_row(Text(str(method)), f"{spacing:g}", *(shown(number) for number in numbers), done)
+    screen.print(table)
+    screen.print(f"error: {dataset['error'].attrs['long_name']}", markup=False)
+    for path in (output / "comparison.nc", comparison.report):
+        screen.print(f"wrote {path}", markup=False)
+
+
+def _numbers(given: object) -> Sequence[float]:
+    """Return the numbers of ``0.02,0.01``, of one number, or of a list."""
+    if given is None:
+        return ()
+    try:
+        if isinstance(given, str):
+            return [float(text) for text in given.split(",")]
+        return [float(value) for value in (given if isinstance(given, list) else [given])]  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise InputError(
+            f"particle_spacing={given}: give numbers with commas, such as --set particle_spacing=0.02,0.01,0.005"
+        ) from None

@@ -1,0 +1,81 @@
+"""CLI: ``sphframe reproduce``, and how the progress of many runs is shown."""
+
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import Progress as Bar
+
+from sphframe.cli.run import console_log
+from sphframe.reproduction import Progress, reproduce
+from sphframe.reproduction.engine import Watch
+
+__all__ = ["reproduce_command", "shown_progress"]
+
+_LINE_EVERY = 60.0
+"""s between lines about what is under way, where there is no terminal"""
+
+
+def reproduce_command(
+    *,
+    only: Sequence[str],
+    quick: bool,
+    reference: Path | None,
+    workers: int | None,
+    scheduler: str | None,
+    output: Path,
+) -> None:
+    """Reproduce the paper and say where the report is."""
+    names = [name for given in only for name in given.split(",") if name]
+    with shown_progress(console_log()) as watch:
+        report = reproduce(
+            output,
+            only=names,
+            quick=quick,
+            reference=reference,
+            workers=workers,
+            scheduler=scheduler,
+            watch=watch,
+        )
+    Console(highlight=False, soft_wrap=True).print(f"wrote {report}", markup=False)
+
+
+@contextmanager
+def shown_progress(log: Console) -> Iterator[Watch]:
+    """Show the progress of the whole: on a terminal a bar, elsewhere a line for each run that is done."""
+    if log.is_terminal:
+        columns = (BarColumn(), TextColumn("{task.percentage:3.0f}% {task.description}"))
+        with Bar(*columns, TimeElapsedColumn(), TimeRemainingColumn(), console=log, transient=True) as bar:
+            task = bar.add_task("starting", total=1.0)
+
+            def move(progress: Progress) -> None:
+                bar.update(task, completed=progress.part, description=escape(_state(progress)))
+                if progress.last is not None:
+                    bar.console.print(f"done: {progress.last}", markup=False)
+
+            yield move
+        return
+    told = time.monotonic()
+
+    def tell(progress: Progress) -> None:
+        nonlocal told
+        if progress.last is not None:
+            log.print(f"{progress.done} of {progress.total} done: {progress.last}", markup=False)
+        elif progress.done == progress.kept and not progress.running:
+            log.print(f"{progress.total} runs, {progress.kept} of them done before", markup=False)
+        elif time.monotonic() - told > _LINE_EVERY:
+            log.print(f"{100.0 * progress.part:.0f}%  {_state(progress)}", markup=False)
+        else:
+            return
+        told = time.monotonic()
+
+    yield tell
+
+
+def _state(progress: Progress) -> str:
+    running = ", ".join(f"{label} {100.0 * part:.0f}%" for label, part in sorted(progress.running.items()))
+    return f"{progress.done} of {progress.total} runs" + (f"; {running}" if running else "")

@@ -1,0 +1,86 @@
+"""Reproduction: how figures look and become files of the same bytes each time."""
+
+import io
+import itertools
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sphframe.errors import InputError
+from sphframe.reproduction.chapter import Picture
+
+__all__ = ["colour", "new_figure", "picture", "thinned", "tidy"]
+
+_COLOURS = {
+    "improved-shepard": "#d62728",
+    "shepard": "#ff9896",
+    "normalized": "#1f77b4",
+    "sfdi": "#2ca02c",
+    "mls-linear": "#9467bd",
+    "mls-quadratic": "#8c564b",
+    "mdbc": "#17becf",
+    "adami": "#e0a800",
+}
+
+
+def colour(method: str) -> str:
+    """Return the colour of an interpolation method, the same in all figures."""
+    known = next((name for name in sorted(_COLOURS, key=len, reverse=True) if method.startswith(name)), None)
+    return _COLOURS[known] if known else f"C{sum(map(ord, method)) % 10}"
+
+
+def new_figure(width: float, height: float) -> Any:
+    """Return an empty figure, inches.
+
+    Raises
+    ------
+    InputError: matplotlib is not installed.
+    """
+    try:
+        from matplotlib.figure import Figure
+    except ImportError:
+        raise InputError("pictures need matplotlib: python -m pip install 'sphframe[reproduce]'") from None
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def tidy(axes: Any, **settings: Any) -> None:
+    """Give axes the look of all figures."""
+    axes.set(**settings)
+    axes.grid(linewidth=0.4, alpha=0.4)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.tick_params(labelsize=8, length=2)
+
+
+def picture(name: str, caption: str, figure: Any, *, raster: bool = False) -> Picture:
+    """Return ``figure`` as SVG, or as PNG if it holds many thousand particles."""
+    import matplotlib
+
+    content = io.BytesIO()
+    with matplotlib.rc_context({"svg.hashsalt": name, "path.simplify": True, "path.simplify_threshold": 0.3}):
+        if raster:
+            figure.savefig(content, format="png", dpi=90, metadata={"Software": None})
+        else:
+            figure.savefig(content, format="svg", metadata={"Date": None, "Creator": None})
+    return Picture(name, caption, content.getvalue(), "png" if raster else "svg")
+
+
+def thinned(t: ArrayLike, values: ArrayLike, most: int = 800) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return a series with at most about ``most`` points that keeps the extremes, for drawing.
+
+    >>> t, y = thinned(range(1000), [0.0] * 500 + [9.0] + [0.0] * 499, most=20)
+    >>> len(t), y.max()
+    (20, 9.0)
+    """
+    x, y = np.asarray(t, dtype=np.float64), np.asarray(values, dtype=np.float64)
+    if len(x) <= most:
+        return x, y
+    edges = np.linspace(0, len(x), most // 2 + 1).astype(int)
+    kept = []
+    for start, stop in itertools.pairwise(edges):
+        part = y[start:stop]
+        if np.all(np.isnan(part)):
+            kept += [start, stop - 1]
+        else:
+            kept += sorted((start + int(np.nanargmin(part)), start + int(np.nanargmax(part))))
+    return x[kept], y[kept]
