@@ -14,8 +14,8 @@ import xarray as xr
 from scipy.spatial import cKDTree
 
 from sphframe.interfaces import Status
-from sphframe.output.provenance import distributions, software
-from sphframe.reproduction.tasks import Task, Tell
+from sphframe.output.provenance import software
+from sphframe.reproduction.tasks import Task, Tell, made_with
 from sphframe.simulation import Simulation
 
 __all__ = ["CostTask", "machine"]
@@ -44,12 +44,17 @@ class CostTask(Task):
 
     alone: ClassVar[bool] = True
 
+    @property
+    def weight(self) -> float:
+        """Expected work: particles times steps."""
+        case = self.case()
+        steps = self.after / case.until + len(self.methods) * self.repeats * 2e-4
+        return super().weight * steps
+
     def recipe(self) -> dict[str, Any]:
         """Return all that the measurement depends on, but for the machine."""
-        versions: dict[str, str] = {}
-        for label in self.methods:
-            versions |= distributions(self._case_of(label))
-        own = {"methods": self.methods, "after": self.after, "repeats": self.repeats, "versions": versions}
+        made = {label: made_with(self._case_of(label)) for label in self.methods}
+        own = {"methods": self.methods, "after": self.after, "repeats": self.repeats, "made_with": made}
         return {**super().recipe(), **own}
 
     def _case_of(self, label: str) -> Any:

@@ -5,6 +5,7 @@ The file's name holds a hash of all that the result depends on, so that work tha
 
 import hashlib
 import json
+import math
 import os
 import threading
 import time
@@ -15,17 +16,20 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar
 
+from sphframe.boundary.operator import compiled_kernel
 from sphframe.cases import Case, CaseWarning
 from sphframe.errors import InputError, OutputError, SimulationError
+from sphframe.geometry import lattice
 from sphframe.hooks import hookimpl
 from sphframe.output import open_dataset
 from sphframe.output.lock import lock_file
 from sphframe.output.provenance import distributions, registered_name
 from sphframe.output.writer import checkpoint_path
-from sphframe.registry import load
+from sphframe.registry import create, load
 from sphframe.simulation.run import resume, run
+from sphframe.specialise import fingerprint
 
-__all__ = ["UNFINISHED", "RunTask", "Task", "Tell", "slug", "work"]
+__all__ = ["UNFINISHED", "RunTask", "Task", "Tell", "made_with", "slug", "work"]
 
 UNFINISHED = "unfinished"
 """folder, beside the results, of what is being computed or was interrupted"""
@@ -70,7 +74,7 @@ class Task(ABC):
             "kind": type(self).__name__,
             "case": self.case_name,
             "parameters": self.parameters,
-            "versions": distributions(self.case()),
+            "made_with": made_with(self.case()),
         }
 
     @property
@@ -81,10 +85,13 @@ class Task(ABC):
 
     @property
     def weight(self) -> float:
-        """Expected work, in arbitrary units: particles times steps, both from the spacing."""
-        p = self.parameters
-        step = p["time_step"] or p["particle_spacing"]
-        return float(p["until"]) / float(step) / float(p["particle_spacing"]) ** int(p["dimension"])
+        """Expected work: particles times steps."""
+        case = self.case()
+        scene = case.scene()
+        particles = sum(len(lattice(region, case.particle_spacing)) for region in scene.fluid)
+        sound_speed = case.sound_speed or 20.0 * math.sqrt(max(case.gravity, 1e-12) * scene.depth)
+        step = case.time_step or 0.5 * case.smoothing_length_ratio * case.particle_spacing / sound_speed
+        return particles * case.until / step
 
 
 @dataclass(frozen=True)
@@ -160,6 +167,13 @@ def work(task: Task, folder: str, name: str, threads: int, tell: Tell) -> str:
             os.replace(unfinished, result)
             checkpoint_path(unfinished).unlink(missing_ok=True)
     return name
+
+
+def made_with(case: Case) -> dict[str, str]:
+    """Return the versions of what ``case`` is run with, and the fingerprint of its method, whose author is at work."""
+    method = create("interpolators", case.interpolator.name, **case.interpolator.options)
+    kernel = compiled_kernel(create("kernels", case.kernel.name, **case.kernel.options), case.dimension)
+    return {**distributions(case), "method": fingerprint(method.point_weights(kernel, case.dimension))}
 
 
 def slug(text: str) -> str:
