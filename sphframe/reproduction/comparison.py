@@ -30,7 +30,7 @@ _SAMPLES = 2001
 
 @dataclass(frozen=True)
 class Comparison:
-    """What :func:`compare` found: the ``dataset`` over (method, particle_spacing), and the ``report`` of it."""
+    """What :func:`compare` found: the ``dataset`` over (interpolator, particle_spacing), and the ``report`` of it."""
 
     dataset: xr.Dataset
     report: Path
@@ -72,10 +72,10 @@ def compare(
 
     Returns
     -------
-    A comparison whose ``dataset`` has, over (method, particle_spacing), ``error``, ``wall_clock`` (s), ``steps``,
+    A comparison whose ``dataset`` has, over (interpolator, particle_spacing), ``error``, ``wall_clock`` (s), ``steps``,
     ``particles``, ``cost`` (us a particle and step), ``energy_excess``, ``fallback`` (% of wet ghosts), ``completed``;
-    ``order`` over (method); and ``probe_pressure`` over (method, particle_spacing, probe, probe_time), Pa, at common
-    times.
+    ``order`` over (interpolator); and ``probe_pressure`` over (interpolator, particle_spacing, probe, probe_time), Pa,
+    at common times.
 
     Raises
     ------
@@ -156,7 +156,7 @@ def _gathered(
             if completed[i, j] and names:
                 error[i, j] = _error(run, runs[method, spacings[-1]], reference, probe or names[0])
     orders = np.array([_order(spacings, error[i]) for i in range(shape[0])])
-    over = ("method", "particle_spacing")
+    over = ("interpolator", "particle_spacing")
     kind = "reference series" if reference is not None else "state of rest"
     if reference is None and first.attrs["case_name"] != "hydrostatic-tank":
         kind = "finest spacing of the same method"
@@ -164,7 +164,7 @@ def _gathered(
     return xr.Dataset(
         {
             "error": (over, error, {"units": unit, "long_name": f"RMS difference of probe pressures from the {kind}"}),
-            "order": ("method", orders, {"units": "1", "long_name": "observed order of convergence of the error"}),
+            "order": ("interpolator", orders, {"units": "1", "long_name": "observed order of convergence"}),
             "cost": (
                 over,
                 1e6 * numbers["wall_clock"] / (numbers["steps"] * numbers["particles"]),
@@ -183,7 +183,7 @@ def _gathered(
             ),
         },
         coords={
-            "method": methods,
+            "interpolator": methods,
             "particle_spacing": ("particle_spacing", spacings, {"units": "m", "long_name": "particle spacing"}),
             "probe": names,
             "probe_time": ("probe_time", times, {"units": "s", "long_name": "time"}),
@@ -222,9 +222,9 @@ def _order(spacings: list[float], errors: np.ndarray[Any, Any]) -> float:
 
 def _chapter(dataset: xr.Dataset) -> Chapter:
     rows: list[dict[str, Cell]] = []
-    for method in dataset["method"].values:
+    for method in dataset["interpolator"].values:
         for spacing in dataset["particle_spacing"].values:
-            one = dataset.sel(method=method, particle_spacing=spacing)
+            one = dataset.sel(interpolator=method, particle_spacing=spacing)
             rows.append(
                 {
                     "method": str(method),
@@ -256,13 +256,14 @@ def _chapter(dataset: xr.Dataset) -> Chapter:
 def _curves(dataset: xr.Dataset) -> Picture:
     figure = new_figure(10.0, 4.0)
     left, right = figure.subplots(1, 2)
-    for method in dataset["method"].values:
-        one = dataset.sel(method=method)
+    for method in dataset["interpolator"].values:
+        one = dataset.sel(interpolator=method)
         style: dict[str, Any] = {"color": colour(str(method)), "marker": "o", "markersize": 4, "linewidth": 1.0}
         order = float(one["order"])
         label = str(method) if math.isnan(order) else f"{method}, order {order:.2f}"
-        if np.isfinite(one["error"]).any():
-            left.plot(one["particle_spacing"], one["error"], label=label, **style)
+        error = one["error"].where(one["error"] > 0.0)
+        if error.notnull().any():
+            left.plot(one["particle_spacing"], error, label=label, **style)
         right.plot(one["particle_spacing"], one["wall_clock"], label=str(method), **style)
     tidy(left, xscale="log", yscale="log" if left.lines else "linear", xlabel="particle spacing (m)", ylabel="error")
     tidy(right, xscale="log", yscale="log", xlabel="particle spacing (m)", ylabel="wall clock (s)")
@@ -277,8 +278,8 @@ def _histories(dataset: xr.Dataset) -> Picture:
     figure = new_figure(10.0, 2.4 * len(names) + 0.8)
     panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
     for axes, name in zip(panels, names, strict=True):
-        for method in dataset["method"].values:
-            one = dataset["probe_pressure"].isel(particle_spacing=-1).sel(method=method, probe=name)
+        for method in dataset["interpolator"].values:
+            one = dataset["probe_pressure"].isel(particle_spacing=-1).sel(interpolator=method, probe=name)
             axes.plot(*thinned(one["probe_time"], one), color=colour(str(method)), linewidth=0.8, label=str(method))
         tidy(axes, title=name, ylabel="p (Pa)")
     panels[-1].set_xlabel("t (s)")

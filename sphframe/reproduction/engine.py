@@ -9,6 +9,7 @@ folder. Results are files, not what travels over the network: whatever is killed
 import contextlib
 import logging
 import os
+import queue
 import shutil
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -121,8 +122,6 @@ class _Foreman:
                 self._do([name])
 
     def _do(self, names: list[str]) -> None:
-        from distributed import as_completed
-
         folder = str(self._folder.resolve())
         futures = [
             self._client.submit(
@@ -130,9 +129,12 @@ class _Foreman:
             )
             for place, name in enumerate(names)
         ]
+        finished = queue.SimpleQueue[Any]()
+        for future in futures:
+            future.add_done_callback(finished.put)
         try:
-            for future in as_completed(futures):
-                self._finish(future)
+            for _ in futures:
+                self._finish(finished.get())
         except BaseException:
             self._client.cancel(futures, force=True)
             raise
@@ -211,7 +213,7 @@ def _cluster(count: int, workers: int | None, scheduler: str | None) -> Iterator
         if scheduler is not None:
             logging.getLogger("distributed").setLevel(logging.ERROR)
             try:
-                client = stack.enter_context(Client(scheduler, timeout="10s"))
+                client = stack.enter_context(Client(scheduler, timeout="10s", set_as_default=False))
             except (OSError, ValueError, TimeoutError) as error:
                 raise InputError(
                     f"--scheduler {scheduler}: no dask scheduler answers there ({error}); start one with"
@@ -232,7 +234,7 @@ def _cluster(count: int, workers: int | None, scheduler: str | None) -> Iterator
             silence_logs=logging.CRITICAL,
         )
         stack.enter_context(cluster)
-        yield stack.enter_context(Client(cluster)), threads
+        yield stack.enter_context(Client(cluster, set_as_default=False)), threads
 
 
 def _cores() -> int:

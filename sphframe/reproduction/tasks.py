@@ -108,7 +108,7 @@ class RunTask(Task):
 
     def perform(self, path: Path, threads: int, tell: Tell) -> None:
         """Run, or continue from the last checkpoint."""
-        if path.exists() and _has_ended(path):
+        if path.exists() and _is_complete(path):
             return
         options: dict[str, Any] = {
             "threads": threads,
@@ -186,11 +186,11 @@ def slug(text: str) -> str:
     return "-".join(words).strip(".-") or "run"
 
 
-def _has_ended(path: Path) -> bool:
-    """Whether the run in ``path`` came to an end, and only its file was not yet put in its place."""
+def _is_complete(path: Path) -> bool:
+    """Whether the run in ``path`` came to its end, and only its file was not yet put in its place."""
     try:
         with open_dataset(path) as dataset:
-            return bool(dataset.attrs["run_status"] != "running")
+            return bool(dataset.attrs["completed"] == "yes")
     except InputError:
         return False
 

@@ -1,0 +1,83 @@
+"""``compare``: one dataset over method and resolution."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from typer.testing import CliRunner, Result
+
+from sphframe.cli.app import app
+from sphframe.errors import InputError
+from sphframe.reproduction import compare
+
+TANK = {"tank_length": 0.3, "until": 0.2, "probe_interval": 0.01}
+DAM = {"until": 0.8, "frame_interval": 0.1}
+
+
+def call(*arguments: str) -> Result:
+    return CliRunner().invoke(app, arguments, env={"COLUMNS": "200", "NO_COLOR": "1"})
+
+
+def test_the_command_gives_a_dataset_a_table_and_figures(cluster: str, tmp_path: Path) -> None:
+    result = call(
+        *("compare", "hydrostatic-tank", "--interpolators", "improved-shepard,normalized"),
+        *("--set", "particle_spacing=0.06,0.05,0.03", "--set", "tank_length=0.3", "--set", "until=0.2"),
+        *("--set", "hydrostatic_lift=mirror", "--scheduler", cluster, "--output", str(tmp_path / "out")),
+    )
+    assert result.exit_code == 0, result.output
+    assert "normalized" in result.stdout
+    with xr.open_dataset(tmp_path / "out" / "comparison.nc") as dataset:
+        assert dict(dataset["error"].sizes) == {"interpolator": 2, "particle_spacing": 3}
+        assert dataset["particle_spacing"].values.tolist() == [0.06, 0.05, 0.03]
+        assert (dataset["error"] > 0.0).all()
+        slopes = np.polyfit(np.log(dataset["particle_spacing"]), np.log(dataset["error"].T), 1)[0]
+        assert np.allclose(dataset["order"], slopes)
+        rest = dataset["probe_pressure"].sel(interpolator="improved-shepard", particle_spacing=0.03, probe="P1")
+        assert abs(float(rest.mean()) - 1962.0) < 300.0
+    made = {path.relative_to(tmp_path / "out").as_posix() for path in (tmp_path / "out").rglob("*") if path.is_file()}
+    assert {"report.html", "tables/comparison.csv", "figures/comparison.svg", "figures/comparison_probes.svg"} <= made
+
+
+def test_without_exact_values_the_finest_is_the_measure(cluster: str, tmp_path: Path) -> None:
+    found = compare("dam-break", ["shepard"], [0.06, 0.05, 0.04], output=tmp_path, parameters=DAM, scheduler=cluster)
+    error = found.dataset["error"].sel(interpolator="shepard").values
+    assert np.isfinite(error[:2]).all()
+    assert np.isnan(error[2])
+    assert "finest spacing" in found.dataset["error"].attrs["long_name"]
+
+
+def test_with_a_reference_the_error_is_to_it(cluster: str, tmp_path: Path) -> None:
+    series = tmp_path / "level.csv"
+    series.write_text("# columns: t sqrt(g/H),p/(rho g H)\n0.1,1.0\n0.5,1.0\n1.0,1.0\n")
+    found = compare(
+        "hydrostatic-tank", ["shepard"], [0.03], output=tmp_path / "out", parameters=TANK, reference=series,
+        probe="P1", scheduler=cluster,
+    )  # fmt: skip
+    assert abs(float(found.dataset["error"][0, 0]) - 1.0 / 3.0) < 0.05
+    with pytest.raises(InputError, match="no probe 'P9'"):
+        compare("hydrostatic-tank", ["shepard"], [0.03], output=tmp_path / "out", parameters=TANK, probe="P9")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["compare", "hydrostatic-tank", "--interpolators", "improved-sheperd"], "improved-shepard"),
+        (["compare", "hydrostatic-tank", "--interpolators", "shepard,shepard"], "give each method once"),
+        (["compare", "hydrostatic-tank", "--set", "particle_spacing=0.1,fine"], "give numbers with commas"),
+        (["compare", "hydrostatic-tank", "--set", "particle_spacing=-1,0.1"], "particle_spacing"),
+        (["compare", "no-such-case"], "no-such-case"),
+        (["compare", "hydrostatic-tank", "--reference", "nowhere/x.csv"], "does not exist"),
+        (["reproduce", "--output", "x", "--only", "dam-brake"], "dam-break"),
+        (["reproduce", "--output", "x", "--reference", "nowhere"], "there is no such folder"),
+        (["reproduce", "--output", "x", "--only", "movable-wall", "--workers", "0"], "--workers 0"),
+    ],
+)
+def test_what_is_wrong_is_told_before_anything_runs(
+    arguments: list[str], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = call(*arguments)
+    assert result.exit_code == 2
+    assert message in result.stderr
+    assert not list(tmp_path.rglob("*.nc"))

@@ -1,0 +1,82 @@
+"""Tasks on a cluster: each once, whatever fails, and one command at a time."""
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from sphframe.errors import InputError, OutputError
+from sphframe.output.lock import lock_file
+from sphframe.reproduction.engine import Progress, carry_out
+from sphframe.reproduction.tasks import RunTask, Task, Tell
+
+pytestmark = pytest.mark.filterwarnings("ignore:Sending large graph")
+
+
+@dataclass(frozen=True)
+class Fails(Task):
+    """A task whose worker has a mishap."""
+
+    def perform(self, path: Path, threads: int, tell: Tell) -> None:
+        """Fail."""
+        raise OutputError("the disk is full")
+
+
+@pytest.fixture
+def make(tiny: ModuleType) -> Callable[..., RunTask]:
+    def make(label: str, **parameters: object) -> RunTask:
+        return RunTask.of(label, tiny.tank(**{"until": 0.05, **parameters}))
+
+    return make
+
+
+def test_what_is_done_is_kept_and_the_rest_is_told(make: Callable[..., RunTask], cluster: str, tmp_path: Path) -> None:
+    one, two = make("one"), make("two", interpolator="shepard")
+    seen: list[Progress] = []
+    files = carry_out([one], tmp_path, scheduler=cluster)
+    before = files["one"].stat()
+    files = carry_out([one, two], tmp_path, scheduler=cluster, watch=lambda p: seen.append(replace(p)))
+    assert files["one"].stat() == before
+    assert files["two"].exists()
+    assert (seen[0].total, seen[0].kept) == (2, 1)
+    assert [p.last for p in seen if p.last] == ["two"]
+    assert seen[-1].done == 2
+    assert seen[-1].part == 1.0
+    assert not (tmp_path / "unfinished").exists()
+
+
+def test_all_done_needs_no_cluster(make: Callable[..., RunTask], cluster: str, tmp_path: Path) -> None:
+    carry_out([make("one")], tmp_path, scheduler=cluster)
+    carry_out([make("one")], tmp_path, scheduler="tcp://127.0.0.1:1")
+
+
+def test_a_failure_leaves_the_others_results(make: Callable[..., RunTask], cluster: str, tmp_path: Path) -> None:
+    good = make("good", until=1.0)  # more work, so done first
+    bad = Fails("bad", good.case_name, {**good.parameters, "until": 0.01})
+    with pytest.raises(OutputError, match="the disk is full"):
+        carry_out([good, bad], tmp_path, scheduler=cluster)
+    assert (tmp_path / good.name).exists()
+    assert not (tmp_path / bad.name).exists()
+
+
+def test_a_second_command_in_the_folder_is_refused(make: Callable[..., RunTask], cluster: str, tmp_path: Path) -> None:
+    (tmp_path / ".lock").touch()
+    descriptor = lock_file(tmp_path / ".lock")
+    assert descriptor is not None
+    try:
+        with pytest.raises(OutputError, match="another command is at work"):
+            carry_out([make("one")], tmp_path, scheduler=cluster)
+    finally:
+        os.close(descriptor)
+
+
+def test_no_scheduler_and_no_workers_are_told(make: Callable[..., RunTask], tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="no dask scheduler answers there"):
+        carry_out([make("one")], tmp_path, scheduler="nonsense://x")
+    with pytest.raises(InputError, match="--workers 0"):
+        carry_out([make("one")], tmp_path, workers=0)
+    with pytest.raises(InputError, match="give one of them"):
+        carry_out([make("one")], tmp_path, workers=1, scheduler="tcp://127.0.0.1:1")

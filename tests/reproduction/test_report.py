@@ -1,0 +1,74 @@
+"""The report: self-contained, escaped, complete."""
+
+import csv
+import importlib.util
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from sphframe.reproduction import reproduce
+from sphframe.reproduction.series import Reference
+
+browser = importlib.util.module_from_spec(
+    spec := importlib.util.spec_from_file_location("sphframe_browser", Path(__file__).with_name("browser.py"))  # type: ignore[arg-type]
+)
+spec.loader.exec_module(browser)  # type: ignore[union-attr]
+
+
+@pytest.fixture(scope="module")
+def report(tiny: ModuleType, cluster: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return reproduce(tmp_path_factory.mktemp("report"), quick=True, sections=tiny.TINY, scheduler=cluster)
+
+
+def test_every_picture_decodes_and_is_a_file(report: Path) -> None:
+    page = browser.Page(report.read_text())
+    assert len(page.images) == 2
+    assert all(browser.decoded_width(source) > 200.0 for source in page.images)
+    assert {path.name for path in (report.parent / "figures").iterdir()} == {"pressures.svg", "pressures_raster.png"}
+
+
+def test_names_are_escaped_and_nothing_comes_from_elsewhere(report: Path, tiny: ModuleType) -> None:
+    html = report.read_text()
+    page = browser.Page(html)
+    assert "script" not in page.elements
+    assert page.text.count(tiny.HOSTILE) >= 8
+    assert "http://" not in html
+    assert "https://" not in html
+    assert "quick version" in page.text
+    assert "no --reference folder was named" in page.text
+
+
+def test_tables_are_files(report: Path, tiny: ModuleType) -> None:
+    with (report.parent / "tables" / "pressures.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["run"] for row in rows] == [task.label for task in tiny.tasks(True)]
+    assert all(2500.0 < float(row["mean (Pa)"]) < 3500.0 for row in rows)
+    with (report.parent / "tables" / "claims.csv").open(newline="") as file:
+        assert [row["verdict"] for row in csv.DictReader(file)] == ["reproduced", "not checkable"]
+
+
+def test_written_again_it_is_the_same(report: Path, tiny: ModuleType) -> None:
+    files = sorted(path for path in report.parent.rglob("*") if path.suffix in (".html", ".svg", ".png", ".csv"))
+    before = [path.read_bytes() for path in files]
+    reproduce(report.parent, quick=True, sections=tiny.TINY)
+    assert [path.read_bytes() for path in files] == before
+
+
+@pytest.mark.skipif(browser.browser() is None, reason="no Chromium and playwright here")
+@pytest.mark.filterwarnings("ignore::ResourceWarning")
+def test_a_browser_shows_every_picture_and_runs_nothing(report: Path) -> None:
+    seen = browser.seen_in_browser(report, browser.browser())
+    assert [image[1] for image in seen["images"]] == [True, True]
+    assert all(image[2] > 200 and image[3] > 200 for image in seen["images"])
+    assert (seen["outside"], seen["scripts"], seen["errors"]) == ([], 0, [])
+
+
+def test_reference_series_are_noted_when_absent(tmp_path: Path) -> None:
+    (tmp_path / "there.csv").write_text("# columns: t,p\n0,1\n1,2\n")
+    reference = Reference(tmp_path)
+    assert reference.get("there") is not None
+    assert reference.get("missing") is None
+    assert reference.get("missing") is None
+    assert len(reference.absent) == 1
+    assert "missing" in reference.absent[0]

@@ -1,0 +1,64 @@
+"""What the sections read from series of known shape."""
+
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from sphframe.reproduction.chapter import Verdict
+from sphframe.reproduction.sections import cost, dam_break
+
+
+def pressure() -> xr.DataArray:
+    """Nothing, a first peak of 0.7, a plateau of 0.5, a second peak of 0.9 at 5.8."""
+    t = np.arange(0.0, 7.0, 0.01)
+    p = np.where(t < 2.5, 0.0, 0.5) + 0.2 * np.exp(-(((t - 2.8) / 0.1) ** 2)) + 0.4 * np.exp(-(((t - 5.8) / 0.1) ** 2))
+    return xr.DataArray(p, coords={"t": t})
+
+
+def test_events_of_a_sensor() -> None:
+    events = dam_break._events(pressure())
+    assert events["arrival"] == pytest.approx(2.5, abs=0.011)
+    assert events["first peak"] == pytest.approx(0.7, abs=1e-3)
+    assert events["at"] == pytest.approx(2.8, abs=0.011)
+    assert events["plateau"] == pytest.approx(0.5, abs=1e-3)
+    assert events["second peak"] == pytest.approx(0.9, abs=1e-3)
+    assert events["second peak at"] == pytest.approx(5.8, abs=0.011)
+
+
+def test_a_run_that_ended_early_has_no_plateau_and_no_difference() -> None:
+    early = pressure().sel(t=slice(0.0, 4.0))
+    assert math.isnan(dam_break._events(early)["plateau"])
+    assert math.isnan(dam_break._rms(early, pressure()))
+    assert dam_break._rms(pressure() + 0.1, pressure()) == pytest.approx(0.1)
+
+
+def medians(fill: dict[str, float], neighbours: float, power: dict[str, float]) -> dict[str, dict[str, float]]:
+    return {
+        v.label: {
+            "fill": fill.get(v.method, 1.0) * neighbours ** power.get(v.method, 1.0),
+            "fill ratio": fill.get(v.method, 1.0),
+            "step": 10.0,
+            "step ratio": fill.get(v.method, 1.0),
+            "points": 100.0,
+            "neighbours": neighbours,
+            "spread": 0.0,
+        }
+        for v in cost.VARIANTS
+    }
+
+
+def test_growth_and_verdicts_of_costs() -> None:
+    power = {"mls-quadratic": 2.0}
+    by_ratio = {r: medians({}, 30.0 * r**2, power) for r in (1.0, 2.0, 3.0)}
+    growth = {v.label: cost._growth(by_ratio, v.label) for v in cost.VARIANTS}
+    assert growth["mls-quadratic, mirror"] == pytest.approx(2.0)
+    assert growth["normalized, mirror"] == pytest.approx(1.0)
+    as_printed = {figure: medians(dict(ups), 30.0, {}) for figure, ups in cost.SPEED_UPS.items()}
+    verdicts = {(c.where, c.statement): c.verdict for c in cost._claims(as_printed, growth)}
+    speed_ups = [verdict for (where, _), verdict in verdicts.items() if where.startswith("Fig")]
+    assert set(speed_ups) == {Verdict.REPRODUCED}
+    table = {statement: verdict for (where, statement), verdict in verdicts.items() if where == "Table 1"}
+    assert table["The work of mls-quadratic grows with the square of the number of neighbours."] is Verdict.REPRODUCED
+    assert table["The work of mls-linear grows with the square of the number of neighbours."] is Verdict.NOT_REPRODUCED

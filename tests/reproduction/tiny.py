@@ -1,0 +1,65 @@
+"""A section whose runs take a second, and pictures of what it shows.
+
+Run as a program, ``tiny.py OUTPUT``, it reproduces that section on two local workers.
+"""
+
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from sphframe.cases.hydrostatic_tank import HydrostaticTank
+from sphframe.reproduction import Section, reproduce
+from sphframe.reproduction.chapter import Chapter, Claim, Table
+from sphframe.reproduction.drawing import new_figure, picture, tidy
+from sphframe.reproduction.series import Reference
+from sphframe.reproduction.tasks import RunTask, Task
+
+HOSTILE = "<script>alert('x')</script> & \"quoted\""
+"""a name as it might come from a plugin or a file"""
+
+
+def tank(**parameters: Any) -> HydrostaticTank:
+    """100 particles at rest."""
+    chosen = {"particle_spacing": 0.03, "tank_length": 0.3, "until": 1.0, "probe_interval": 0.01, **parameters}
+    return HydrostaticTank(**chosen)
+
+
+def tasks(quick: bool) -> list[Task]:
+    """Four runs that differ in their method."""
+    until = 0.2 if quick else 2.0
+    methods = ("improved-shepard", "shepard", "normalized", "adami")
+    return [RunTask.of(f"tank {m} {HOSTILE}", tank(interpolator=m, until=until)) for m in methods]
+
+
+def chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) -> Chapter:
+    """A table and a figure of each kind, with names that must be escaped."""
+    reference.get("nothing_of_that_name")
+    figure = new_figure(4.0, 3.0)
+    axes = figure.subplots()
+    for label, dataset in runs.items():
+        axes.plot(dataset["probe_time"], dataset["probe_pressure"][:, 0], label=label)
+    tidy(axes, xlabel="t (s)", ylabel="p (Pa)")
+    rows = [
+        {"run": label, "mean (Pa)": float(dataset["probe_pressure"][:, 0].mean()), HOSTILE: None}
+        for label, dataset in runs.items()
+    ]
+    return Chapter(
+        "tiny",
+        f"Tiny {HOSTILE}",
+        [HOSTILE],
+        [Table("pressures", HOSTILE, rows)],
+        [
+            picture("pressures", HOSTILE, figure),
+            picture("pressures_raster", "The same as a raster.", figure, raster=True),
+        ],
+        [Claim.judged("Fig. 0", HOSTILE, HOSTILE, HOSTILE, True, HOSTILE), Claim.open("Fig. 1", "b", "c", "d")],
+    )
+
+
+TINY = {"tiny": Section("tiny", tasks, chapter)}
+
+if __name__ == "__main__":
+    reproduce(Path(sys.argv[1]), sections=TINY, workers=2)
