@@ -49,9 +49,9 @@ def compare_command(
     table = Table(box=None, pad_edge=False)
     for head in ("method", "spacing (m)", "error", "order", "wall clock (s)", "fallback (%)", "to the end"):
         table.add_column(head)
-    for method in dataset["method"].values:
+    for method in dataset["interpolator"].values:
         for spacing in dataset["particle_spacing"].values:
-            one = dataset.sel(method=method, particle_spacing=spacing)
+            one = dataset.sel(interpolator=method, particle_spacing=spacing)
             numbers = (float(one[name]) for name in ("error", "order", "wall_clock", "fallback"))
             done = "yes" if int(one["completed"]) else "no"
             table.add_row(Text(str(method)), f"{spacing:g}", *(shown(number) for number in numbers), done)
