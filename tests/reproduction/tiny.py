@@ -29,7 +29,7 @@ def tank(**parameters: Any) -> HydrostaticTank:
 
 def tasks(quick: bool) -> list[Task]:
     """Four runs that differ in their method."""
-    until = 0.2 if quick else 2.0
+    until = 0.2 if quick else 1.5
     methods = ("improved-shepard", "shepard", "normalized", "adami")
     return [RunTask.of(f"tank {m} {HOSTILE}", tank(interpolator=m, until=until)) for m in methods]
 
