@@ -31,16 +31,21 @@ def reproduce_command(
 ) -> None:
     """Reproduce the paper and say where the report is."""
     names = [name for given in only for name in given.split(",") if name]
-    with shown_progress(console_log()) as watch:
-        report = reproduce(
-            output,
-            only=names,
-            quick=quick,
-            reference=reference,
-            workers=workers,
-            scheduler=scheduler,
-            watch=watch,
-        )
+    log = console_log()
+    try:
+        with shown_progress(log) as watch:
+            report = reproduce(
+                output,
+                only=names,
+                quick=quick,
+                reference=reference,
+                workers=workers,
+                scheduler=scheduler,
+                watch=watch,
+            )
+    except KeyboardInterrupt:
+        log.print("what is done is kept; the same command continues")
+        raise
     Console(highlight=False, soft_wrap=True).print(f"wrote {report}", markup=False)
 
 
