@@ -4,9 +4,13 @@ import importlib.util
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+
+from sphframe.reproduction import SECTIONS, reproduce
+from sphframe.reproduction.tasks import Task
 
 pytestmark = pytest.mark.slow
 
@@ -34,3 +38,15 @@ def test_quick_makes_the_whole_report(tmp_path: Path) -> None:
         assert len(seen["images"]) == 14
         assert all(complete and width > 200 for _, complete, width, _ in seen["images"])
         assert (seen["outside"], seen["scripts"], seen["errors"]) == ([], 0, [])
+
+
+@pytest.mark.parametrize("name", ["hydrostatic-tank", "dam-break", "fixed-wall", "movable-wall"])
+@pytest.mark.filterwarnings("ignore:Attempting to set identical low and high ylims")  # of probes that stay dry
+def test_a_chapter_is_written_of_runs_that_stop_at_once(name: str, cluster: str, tmp_path: Path) -> None:
+    section = SECTIONS[name]
+
+    def short(quick: bool) -> list[Task]:
+        return [replace(task, parameters={**task.parameters, "until": 0.01}) for task in section.tasks(quick)]
+
+    report = reproduce(tmp_path, quick=True, scheduler=cluster, sections={name: section._replace(tasks=short)})
+    assert "<img" in report.read_text()
