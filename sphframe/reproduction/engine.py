@@ -10,7 +10,6 @@ import contextlib
 import logging
 import os
 import queue
-import shutil
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from importlib.util import find_spec
@@ -19,7 +18,7 @@ from typing import Any
 
 from sphframe.errors import InputError, OutputError, SphframeError
 from sphframe.output.lock import lock_file
-from sphframe.reproduction.tasks import UNFINISHED, Task, work
+from sphframe.reproduction.tasks import UNFINISHED, Task, lock_of, work
 
 __all__ = ["Progress", "Watch", "carry_out"]
 
@@ -91,7 +90,7 @@ def carry_out(
         if left:
             with _cluster(len(left), workers, scheduler) as (client, threads):
                 _Foreman(client, threads, folder, left, progress, watch).work()
-        shutil.rmtree(folder / UNFINISHED, ignore_errors=True)
+        _tidy_up(folder / UNFINISHED, names.values())
     return {label: folder / name for label, name in names.items()}
 
 
@@ -172,6 +171,14 @@ class _Foreman:
     def _note(self, name: str, part: float) -> None:
         self._parts[name] = part
         self._progress.part = sum(self._weights[n] * p for n, p in self._parts.items()) / sum(self._weights.values())
+
+
+def _tidy_up(unfinished: Path, names: Iterable[str]) -> None:
+    """Remove the locks of what is done; what other commands have left unfinished stays."""
+    for name in names:
+        lock_of(unfinished / name).unlink(missing_ok=True)
+    with contextlib.suppress(OSError):
+        unfinished.rmdir()
 
 
 def _work(task: Task, folder: str, name: str, threads: int | None) -> str:

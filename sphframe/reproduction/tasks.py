@@ -29,7 +29,7 @@ from sphframe.registry import create, load
 from sphframe.simulation.run import resume, run
 from sphframe.specialise import fingerprint
 
-__all__ = ["UNFINISHED", "RunTask", "Task", "Tell", "made_with", "slug", "work"]
+__all__ = ["UNFINISHED", "RunTask", "Task", "Tell", "lock_of", "made_with", "slug", "work"]
 
 UNFINISHED = "unfinished"
 """folder, beside the results, of what is being computed or was interrupted"""
@@ -160,7 +160,7 @@ def work(task: Task, folder: str, name: str, threads: int, tell: Tell) -> str:
         )
     result = Path(folder) / name
     unfinished = Path(folder) / UNFINISHED / name
-    with _one_at_a_time, _Locked(unfinished.with_suffix(".lock")), warnings.catch_warnings():
+    with _one_at_a_time, _Locked(lock_of(unfinished)), warnings.catch_warnings():
         warnings.simplefilter("ignore", CaseWarning)
         if not result.exists():
             task.perform(unfinished, threads, tell)
@@ -174,6 +174,11 @@ def made_with(case: Case) -> dict[str, str]:
     method = create("interpolators", case.interpolator.name, **case.interpolator.options)
     kernel = compiled_kernel(create("kernels", case.kernel.name, **case.kernel.options), case.dimension)
     return {**distributions(case), "method": fingerprint(method.point_weights(kernel, case.dimension))}
+
+
+def lock_of(unfinished: Path) -> Path:
+    """Return the lock of a file that is being made."""
+    return unfinished.with_name(f"{unfinished.name}.lock")
 
 
 def slug(text: str) -> str:

@@ -37,15 +37,22 @@ def test_what_is_done_is_kept_and_the_rest_is_told(make: Callable[..., RunTask],
     one, two = make("one"), make("two", interpolator="shepard")
     seen: list[Progress] = []
     files = carry_out([one], tmp_path, scheduler=cluster)
-    before = files["one"].stat()
+    before = files["one"].stat().st_ino
     files = carry_out([one, two], tmp_path, scheduler=cluster, watch=lambda p: seen.append(replace(p)))
-    assert files["one"].stat() == before
+    assert files["one"].stat().st_ino == before
     assert files["two"].exists()
     assert (seen[0].total, seen[0].kept) == (2, 1)
     assert [p.last for p in seen if p.last] == ["two"]
     assert seen[-1].done == 2
     assert seen[-1].part == 1.0
     assert not (tmp_path / "unfinished").exists()
+
+
+def test_what_another_command_left_unfinished_stays(make: Callable[..., RunTask], cluster: str, tmp_path: Path) -> None:
+    (tmp_path / "unfinished").mkdir()
+    (tmp_path / "unfinished" / "other-0123456789ab.nc").write_bytes(b"half a run")
+    carry_out([make("one")], tmp_path, scheduler=cluster)
+    assert [path.name for path in (tmp_path / "unfinished").iterdir()] == ["other-0123456789ab.nc"]
 
 
 def test_all_done_needs_no_cluster(make: Callable[..., RunTask], cluster: str, tmp_path: Path) -> None:
