@@ -84,7 +84,7 @@ def test_a_result_is_there_whole_and_made_once(
     monkeypatch.setattr(RunTask, "perform", never)
     work(task, str(tmp_path), task.name, 1, told.append)
     assert (result.stat().st_ino, result.stat().st_mtime_ns) == made
-    assert not list((tmp_path / UNFINISHED).glob("*.nc*"))
+    assert {path.suffix for path in (tmp_path / UNFINISHED).iterdir()} == {".lock"}
 
 
 def test_an_interrupted_run_goes_on_from_its_checkpoint(tiny: ModuleType, tmp_path: Path) -> None:
