@@ -27,7 +27,7 @@ def test_quick_makes_the_whole_report(tmp_path: Path) -> None:
     print(f"{time.monotonic() - began:.0f} s")
     page = browser.Page((tmp_path / "report.html").read_text())
     figures = list((tmp_path / "figures").iterdir())
-    assert len(page.images) == len(figures) == 14
+    assert len(page.images) == len(figures) == 15
     assert all(browser.decoded_width(source) > 200.0 for source in page.images)
     for text in ("Hydrostatic tank", "Dam break", "fixed wall", "movable wall", "Cost", "no --reference folder"):
         assert text in page.text
@@ -35,7 +35,7 @@ def test_quick_makes_the_whole_report(tmp_path: Path) -> None:
     assert all(verdict in claims for verdict in (",reproduced,", ",not reproduced,", ",not checkable,"))
     if browser.browser() is not None:
         seen = browser.seen_in_browser(tmp_path / "report.html", browser.browser())
-        assert len(seen["images"]) == 14
+        assert len(seen["images"]) == 15
         assert all(complete and width > 200 for _, complete, width, _ in seen["images"])
         assert (seen["outside"], seen["scripts"], seen["errors"]) == ([], 0, [])
 

@@ -129,6 +129,7 @@ def _chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) 
         ),
         _pressures(runs, PAPER, experiments, "dam_break_paper", "Fig. 7 anew: the paper's methods"),
         _pressures(runs, OURS, experiments, "dam_break_ours", "The same with the boundaries of this project"),
+        _profiles(runs, experiments),
         _corner(runs),
         surge_picture,
     ]
@@ -316,6 +317,39 @@ def _pressures(
     figure.axes[1].set_xlabel("t sqrt(g/H)")
     figure.axes[0].legend(fontsize=8, frameon=False, ncols=3, loc="upper left")
     return picture(name, f"{caption}: pressure on the far wall, running means over 0.1 sqrt(H/g).", figure)
+
+
+def _profile(dataset: xr.Dataset) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+    """Heights over H, and the mean pressure there of the particles within two spacings of the far wall, plateau."""
+    (right, _), height = _corner_particles(dataset)
+    spacing, scale = float(dataset.attrs["particle_spacing"]), time_scale(dataset)
+    frames = dataset[["position", "pressure"]].sel(time=slice(3.2 * scale, 4.8 * scale))
+    x, p = frames["position"].values.reshape(-1, 2), frames["pressure"].values.reshape(-1)
+    beside = x[:, 0] > right - 2.0 * spacing
+    edges = np.arange(0.0, 0.6, max(0.02, spacing / height))
+    bins = np.digitize(x[beside, 1] / height, edges) - 1
+    means = [p[beside][bins == k].mean() if (bins == k).any() else math.nan for k in range(len(edges) - 1)]
+    return 0.5 * (edges[1:] + edges[:-1]), np.array(means) / pressure_scale(dataset)
+
+
+def _profiles(runs: Mapping[str, xr.Dataset], experiments: Mapping[str, xr.DataArray]) -> Picture:
+    figure = new_figure(6.0, 4.2)
+    axes = figure.subplots()
+    for variant in (*PAPER, BEST):
+        line = "-" if variant.published else "--"
+        heights, means = _profile(runs[_label(variant)])
+        axes.plot(means, heights, line, color=colour(variant.method), linewidth=1.0, label=variant.label)
+    measured = [_events(series)["plateau"] for series in experiments.values()]
+    for height, marker, name in ((4.0 / 15.0, "o", "where the sensor is"), (4.0 / 15.0 - 0.075, "x", "shifted")):
+        if measured:
+            axes.plot(float(np.mean(measured)), height, marker, color="black", linewidth=0, label=f"Buchner, {name}")
+    tidy(axes, xlabel="p / (rho g H)", ylabel="height / H", xlim=(-0.2, 1.4))
+    axes.legend(fontsize=8, frameon=False)
+    return picture(
+        "dam_break_profile",
+        "Mean pressure along the far wall during the plateau, 3.2 to 4.8: how much the place of the sensor decides.",
+        figure,
+    )
 
 
 def _corner(runs: Mapping[str, xr.Dataset]) -> Picture:
