@@ -44,6 +44,7 @@ def medians(fill: dict[str, float], neighbours: float, power: dict[str, float]) 
             "points": 100.0,
             "neighbours": neighbours,
             "spread": 0.0,
+            "fill spread": 0.0,
         }
         for v in cost.VARIANTS
     }
@@ -56,9 +57,23 @@ def test_growth_and_verdicts_of_costs() -> None:
     assert growth["mls-quadratic, mirror"] == pytest.approx(2.0)
     assert growth["normalized, mirror"] == pytest.approx(1.0)
     as_printed = {figure: medians(dict(ups), 30.0, {}) for figure, ups in cost.SPEED_UPS.items()}
-    verdicts = {(c.where, c.statement): c.verdict for c in cost._claims(as_printed, growth)}
+    verdicts = {(c.where, c.statement): c.verdict for c in cost._claims(as_printed, growth, None)}
     speed_ups = [verdict for (where, _), verdict in verdicts.items() if where.startswith("Fig")]
     assert set(speed_ups) == {Verdict.REPRODUCED}
     table = {statement: verdict for (where, statement), verdict in verdicts.items() if where == "Table 1"}
     assert table["The work of mls-quadratic grows with the square of the number of neighbours."] is Verdict.REPRODUCED
     assert table["The work of mls-linear grows with the square of the number of neighbours."] is Verdict.NOT_REPRODUCED
+
+
+def test_on_a_busy_machine_times_decide_nothing() -> None:
+    figures = {figure: medians(dict(ups), 30.0, {}) for figure, ups in cost.SPEED_UPS.items()}
+    growth = {v.label: 1.0 for v in cost.VARIANTS}
+    calm, busy = (xr.Dataset(attrs={"busy": value}) for value in (1.01, 1.8))
+    assert cost._disturbance({"a": calm}, list(figures.values())) is None
+    for runs, fill_spread in (({"a": calm, "b": busy}, 0.0), ({"a": calm}, 0.4)):
+        measured = [{v: {**one, "fill spread": fill_spread} for v, one in found.items()} for found in figures.values()]
+        reason = cost._disturbance(runs, measured)
+        assert reason is not None
+        claims = cost._claims(figures, growth, reason)
+        assert {claim.verdict for claim in claims} == {Verdict.NOT_CHECKABLE}
+        assert all(claim.reason == reason and claim.measured != "-" for claim in claims)
