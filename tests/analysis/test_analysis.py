@@ -186,3 +186,19 @@ def test_picture_that_cannot_be_written(tank: xr.Dataset, tmp_path: Path) -> Non
         plot_run(tank, tmp_path / "run.xyz")
     with pytest.raises(InputError, match="pressure, speed"):
         plot_run(tank, field="colour")
+
+
+def test_plot_of_probes_that_read_a_constant(tank: xr.Dataset) -> None:
+    """A warning of matplotlib about equal limits is an error here."""
+    for value in (0.0, 5.0e3, -2.0e3):
+        made = tank.assign(probe_pressure=tank["probe_pressure"] * 0 + value)
+        low, high = next(axes for axes in plot_run(made).axes if "probe" in axes.get_ylabel()).get_ylim()
+        assert low <= 1e-3 * value <= high
+        assert high > low
+
+
+def test_plot_marks_probes_and_the_free_surface(tank: xr.Dataset) -> None:
+    panel = plot_run(tank, times=[0.0], surface=True).axes[0]
+    lines = [line.get_xydata() for line in panel.get_lines()]
+    assert any(len(line) == tank.sizes["probe"] for line in lines)
+    assert any(len(line) > 10 and np.allclose(line[:, 1], 0.3, atol=0.01) for line in lines)

@@ -1,0 +1,238 @@
+"""Analysis: the parts of a picture: particles, walls, probes, free surface, scales and labels.
+
+matplotlib is imported on first use.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from sphframe.analysis.fields import free_surface
+from sphframe.analysis.scales import case_of, pressure_scale, time_scale
+from sphframe.errors import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.collections import EllipseCollection
+    from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
+
+__all__ = [
+    "FIELDS",
+    "Field",
+    "colour_limits",
+    "draw_free_surface",
+    "draw_particles",
+    "draw_probes",
+    "draw_walls",
+    "field_to_draw",
+    "figure_class",
+    "move_walls",
+    "run_title",
+    "shown_particles",
+    "tidy",
+    "time_label",
+    "view_of",
+    "walls_at",
+]
+
+Array = NDArray[np.float64]
+View = tuple[tuple[float, float], tuple[float, float]]
+
+_WALL_COLOUR = "#3b3b3b"
+_EDGE = 0.4  # pt around each particle: small discs would fade into the background where they are antialiased
+
+
+@dataclass(frozen=True)
+class Field:
+    """A field as it is drawn: its label, unit, the factor from SI units, and a perceptually uniform colour map."""
+
+    label: str
+    unit: str
+    factor: float
+    colours: str
+
+
+FIELDS = {
+    "pressure": Field("pressure", "kPa", 1e-3, "viridis"),
+    "speed": Field("speed", "m/s", 1.0, "cividis"),
+    "density": Field("density", "kg/m³", 1.0, "viridis"),
+}
+
+
+def field_to_draw(name: str) -> Field:
+    """Return how the field ``name`` is drawn.
+
+    Raises
+    ------
+    InputError: there is no such field.
+    """
+    if name not in FIELDS:
+        raise InputError(f"no field {name!r} to draw; choose one of {', '.join(FIELDS)}")
+    return FIELDS[name]
+
+
+def figure_class() -> type["Figure"]:
+    """Return matplotlib's figure, which opens no window.
+
+    Raises
+    ------
+    InputError: matplotlib is not installed.
+    """
+    try:
+        from matplotlib.figure import Figure
+    except ImportError:
+        raise InputError("pictures need matplotlib: install it with pip install 'sphframe[plot]'") from None
+    return Figure
+
+
+def shown_particles(dataset: xr.Dataset, frame: xr.Dataset, values: Array) -> tuple[Array, Array]:
+    """Horizontal and vertical positions (n, 2) of the particles to draw, with their values (n,).
+
+    In 2-D all of them, in 3-D those within one spacing of the vertical plane through the middle of the tank.
+    """
+    position = frame["position"].values
+    if position.shape[1] == 2:
+        return position, values
+    width = dataset["outline_node"].isel(space=1)
+    middle = 0.5 * float(width.min() + width.max())
+    near = np.abs(position[:, 1] - middle) < float(dataset.attrs["particle_spacing"])
+    return position[near][:, [0, 2]], values[near]
+
+
+def draw_particles(axes: "Axes", dataset: xr.Dataset, frame: xr.Dataset, values: Array) -> "EllipseCollection":
+    """Draw the particles of ``frame`` as discs of one spacing, coloured by ``values`` (particles,).
+
+    In 3-D only those within one spacing of the middle plane are drawn. Particles without a finite value are drawn in
+    the colour of the walls, so that they are not overlooked.
+    """
+    from matplotlib.collections import EllipseCollection
+
+    position, values = shown_particles(dataset, frame, values)
+    spacing = float(dataset.attrs["particle_spacing"])
+    # slightly more than the spacing, so that a lattice at rest shows no gaps
+    collection = EllipseCollection(
+        [1.1 * spacing],
+        [1.1 * spacing],
+        [0.0],
+        units="xy",
+        offsets=position,
+        offset_transform=axes.transData,
+        linewidths=_EDGE,
+        edgecolors="face",
+        array=np.ma.masked_invalid(values),
+        zorder=2,
+    )
+    axes.add_collection(collection, autolim=False)
+    return collection
+
+
+def draw_walls(axes: "Axes", dataset: xr.Dataset, time: float) -> "list[Line2D]":
+    """Draw the walls where they are at ``time``; in 3-D their outlines seen along y."""
+    lines = [
+        axes.plot([], [], color=_WALL_COLOUR, linewidth=1.6, solid_capstyle="round", zorder=3)[0]
+        for _ in range(dataset.sizes["outline"])
+    ]
+    move_walls(lines, dataset, time)
+    return lines
+
+
+def move_walls(lines: "Sequence[Line2D]", dataset: xr.Dataset, time: float) -> None:
+    """Move walls drawn by :func:`draw_walls` to where they are at ``time``."""
+    for line, (points, _) in zip(lines, walls_at(dataset, time), strict=True):
+        line.set_data(points[:, 0], points[:, -1])
+
+
+def walls_at(dataset: xr.Dataset, time: float) -> list[tuple[Array, int]]:
+    """The polylines (n, dim) that draw the walls, where they are at ``time`` (s), each with the index of its wall."""
+    nodes = dataset["outline_node"].values
+    counts, bodies = dataset["outline_node_count"].values, dataset["wall_body"].values
+    result = []
+    for end, count, wall in zip(np.cumsum(counts), counts, dataset["outline_wall"].values, strict=True):
+        points = nodes[end - count : end]
+        if bodies[wall] >= 0:
+            points = _moved(points, dataset, int(bodies[wall]), time)
+        result.append((points, int(wall)))
+    return result
+
+
+def draw_probes(axes: "Axes", dataset: xr.Dataset) -> None:
+    """Mark where the pressure probes are, with their names."""
+    if "probe_pressure" not in dataset:
+        return
+    across, up = dataset["probe_x"].values, dataset[f"probe_{'xyz'[_dimension(dataset) - 1]}"].values
+    axes.plot(across, up, "o", markersize=4, color="white", markeredgecolor="black", markeredgewidth=0.8, zorder=4)
+
+
+def draw_free_surface(axes: "Axes", dataset: xr.Dataset, time: float) -> None:
+    """Draw the elevation of the highest fluid; in 3-D in the middle of the tank."""
+    surface = free_surface(dataset, time)
+    if "y" in surface.dims:
+        surface = surface.isel(y=surface.sizes["y"] // 2)
+    axes.plot(surface["x"].values, surface.values, color="#d62728", linewidth=1.2, drawstyle="steps-mid", zorder=5)
+
+
+def view_of(dataset: xr.Dataset, frames: Sequence[xr.Dataset]) -> View:
+    """Limits of x and height that show the walls, but not much more air than the water needs."""
+    nodes = dataset["outline_node"].values
+    positions = np.concatenate([frame["position"].values for frame in frames])
+    x0, x1 = nodes[:, 0].min(), np.fmax(nodes[:, 0].max(), np.nanmax(positions[:, 0]))
+    y0 = nodes[:, -1].min()
+    # a few drops of spray do not set the scale
+    top = max(float(np.nanpercentile(positions[:, -1], 99.8)), float(dataset.attrs["depth"]))
+    y1 = min(y0 + 1.15 * (top - y0), max(float(nodes[:, -1].max()), top))
+    margin = 0.015 * (x1 - x0)
+    return (float(x0 - margin), float(x1 + margin)), (float(y0 - margin), float(y1 + margin))
+
+
+def colour_limits(dataset: xr.Dataset, frames: Sequence[xr.Dataset], name: str) -> tuple[float, float]:
+    """Ends of the colour bar of a field, in its unit: 0 to rho0 g H for the pressure, else the range of the values."""
+    factor = FIELDS[name].factor
+    if name == "pressure" and pressure_scale(dataset) > 0.0:
+        return 0.0, pressure_scale(dataset) * factor
+    values = np.concatenate([frame[name].values for frame in frames]) * factor
+    low, high = np.nanpercentile(values, [0.5, 99.5])
+    return (0.0 if name == "speed" else float(low)), float(high if high > low else low + 1.0)
+
+
+def time_label(dataset: xr.Dataset, time: float) -> str:
+    """Time in s and over sqrt(H/g)."""
+    return rf"$t$ = {time:.3f} s    ($t\sqrt{{g/H}}$ = {time / time_scale(dataset):.2f})"
+
+
+def run_title(dataset: xr.Dataset) -> str:
+    """What was run, in one line: case, method, resolution, and how the run stands unless it is complete."""
+    case = case_of(dataset)
+    parts = [
+        str(dataset.attrs["title"]).capitalize(),
+        f"{case['interpolator']['name']}, {case['hydrostatic_lift']} lift",
+        f"{dataset.sizes['particle']} particles, spacing {1e3 * dataset.attrs['particle_spacing']:g} mm",
+    ]
+    if dataset.attrs["completed"] != "yes":
+        parts.append(str(dataset.attrs["run_status"]))
+    return "  ·  ".join(parts)
+
+
+def tidy(axes: "Axes", *, grid: bool = True) -> None:
+    """Small ticks, no box, a faint grid."""
+    axes.tick_params(labelsize=9, length=2)
+    axes.spines[["top", "right"]].set_visible(False)
+    if grid:
+        axes.grid(linewidth=0.4, alpha=0.4)
+
+
+def _dimension(dataset: xr.Dataset) -> int:
+    return int(dataset.attrs["dimension"])
+
+
+def _moved(points: Array, dataset: xr.Dataset, body: int, time: float) -> Array:
+    return points + _displacement(dataset, body, time)[: points.shape[1]]
+
+
+def _displacement(dataset: xr.Dataset, body: int, time: float) -> Array:
+    moved = dataset["body_position"].isel(body=body).values
+    return np.array([np.interp(time, dataset["probe_time"].values, moved[:, k]) for k in range(moved.shape[1])])
