@@ -89,16 +89,16 @@ def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
     yield from _step_problems(case, scene)
     if shape_problems:
         return
-    size_problems = [*_size_problems(case, scene)]
-    yield from size_problems
-    if size_problems:
-        return
     count = sum(float(np.prod((np.asarray(region.upper) - region.lower) / spacing)) for region in scene.fluid)
     if count > _MOST_PARTICLES:
         yield (
             f"particle_spacing = {spacing:g} m would need {count:.2g} particles; choose a larger spacing"
             f" (at most {_MOST_PARTICLES:,} particles)"
         )
+        return
+    size_problems = [*_size_problems(case, scene)]
+    yield from size_problems
+    if size_problems:
         return
     for index, region in enumerate(scene.fluid):
         yield from _region_problems(case, scene, index, region)
@@ -172,12 +172,13 @@ def _step_problems(case: Case, scene: Scene) -> Iterator[str]:
 
 
 def _size_problems(case: Case, scene: Scene) -> Iterator[str]:
-    extents = np.subtract(scene.domain[1], scene.domain[0])
+    with np.errstate(over="ignore"):
+        extents = np.subtract(scene.domain[1], scene.domain[0])
     if not np.all(extents > 0.0):
         yield f"domain = {scene.domain}: its first corner must be the lower one, its second the upper one on all axes"
         return
     spacing = case.particle_spacing
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", invalid="ignore"):
         cells = float(np.prod(np.ceil(extents / (3.0 * spacing))))
         points = sum(
             float(np.sum(np.linalg.norm(np.diff(line, axis=0), axis=1))) / spacing

@@ -113,7 +113,7 @@ BAD_PARAMETERS: list[tuple[str, dict[str, Any], str]] = [
     ("dam-break", {"particle_spacing": None}, "particle_spacing = None must be a valid number"),
     ("dam-break", {"particle_spacing": [0.01]}, "must be a valid number"),
     ("dam-break", {"particle_spacing": 0.3}, "more than a quarter of the water depth"),
-    ("dam-break", {"particle_spacing": 1e-6}, "choose a larger spacing"),
+    ("dam-break", {"particle_spacing": 1e-6}, "particle_spacing = 1e-06 m would need .* particles; choose a larger"),
     ("dam-break", {"partcle_spacing": 0.01}, "did you mean 'particle_spacing'"),
     ("dam-break", {"zzz": 1}, "zzz is not a parameter"),
     ("dam-break", {"dimension": 4}, "dimension = 4 must be 2 or 3"),

@@ -53,7 +53,7 @@ def test_three_dimensions_rest():
     advance_to(simulation, 0.1)
     fields = simulation.fields()
     expected = 9810.0 * (0.3 - fields.position[:, 2])
-    assert np.sqrt(np.mean((fields.pressure - expected) ** 2)) < 0.03 * 2943.0
+    assert np.sqrt(np.mean((fields.pressure - expected) ** 2)) < 0.02 * 2943.0
     assert simulation.particles_outside() == 0
 
 
