@@ -89,7 +89,8 @@ def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
     yield from _step_problems(case, scene)
     if shape_problems:
         return
-    count = sum(float(np.prod((np.asarray(region.upper) - region.lower) / spacing)) for region in scene.fluid)
+    with np.errstate(over="ignore", under="ignore"):
+        count = sum(float(np.prod((np.asarray(region.upper) - region.lower) / spacing)) for region in scene.fluid)
     if count > _MOST_PARTICLES:
         yield (
             f"particle_spacing = {spacing:g} m would need {count:.2g} particles; choose a larger spacing"
