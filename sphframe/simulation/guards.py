@@ -22,7 +22,7 @@ from sphframe.interfaces import EvaluationPoint, Status
 from sphframe.registry import Entry, available, find
 from sphframe.simulation.system import FluidSystem
 
-__all__ = ["Watch", "check_promises", "check_time_step", "naming_component", "watch"]
+__all__ = ["Watch", "check_promises", "check_time_step", "naming_component", "naming_hook", "watch"]
 
 Array = NDArray[np.float64]
 
@@ -222,6 +222,29 @@ def naming_component(case: Case, *, running: bool) -> Iterator[None]:
             " plain Python"
         )
         raise (SimulationError(text) if running else BrokenPluginError(text)) from error
+
+
+@contextmanager
+def naming_hook() -> Iterator[None]:
+    """Turn what an installed hook plugin raises into an error that names it.
+
+    Raises
+    ------
+    SimulationError: in its place.
+    """
+    try:
+        yield
+    except (SphframeError, MemoryError):
+        raise
+    except Exception as error:
+        for entry in available("hooks"):
+            if _passed_through(error, entry):
+                raise SimulationError(
+                    f"{entry.label} failed: {type(error).__name__}: {_shortened(error)}\n"
+                    f"what was computed is kept; mend the plugin or take it away (pip uninstall {entry.distribution})"
+                    " and continue with sphframe resume"
+                ) from error
+        raise
 
 
 def _passed_through(error: BaseException, entry: Entry) -> bool:

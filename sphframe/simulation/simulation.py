@@ -20,8 +20,8 @@ from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
 from sphframe.physics import sample_points
 from sphframe.registry import create
-from sphframe.simulation.guards import check_promises, check_time_step, naming_component, watch
-from sphframe.simulation.interruption import deferred_interruption
+from sphframe.simulation.guards import check_promises, check_time_step, naming_component, naming_hook, watch
+from sphframe.simulation.interruption import Interruption, deferred_interruption
 from sphframe.simulation.probes import Gauges, PressureProbes
 from sphframe.simulation.rest_state import rest_pressure
 from sphframe.simulation.system import FluidSystem, Parameters
@@ -484,27 +484,28 @@ class Simulation:
         hook = manager.hook
         with deferred_interruption() as interruption:
             try:
-                hook.sphframe_run_started(simulation=self)
-                while True:
-                    if self._is_due(self.samples, self.case.probe_interval):
-                        hook.sphframe_probes_due(simulation=self)
-                        self.samples += 1
-                    if self._is_due(self.frames, self.case.frame_interval):
-                        with self._dating_errors():
-                            check_promises(
-                                self.system, self.components["interpolator"], self.components["kernel"], self.case
-                            )
-                        hook.sphframe_frame_due(simulation=self)
-                        self.frames += 1
-                    if self.time >= self.case.until:
-                        break
-                    self.advance()
-                    hook.sphframe_step_completed(simulation=self)
-                    interruption.raise_if_asked()
+                with self._dating_errors(), naming_hook():
+                    self._run(hook, interruption)
             except BaseException as error:
                 hook.sphframe_run_failed(simulation=self, error=error)
                 raise
             hook.sphframe_run_finished(simulation=self)
+
+    def _run(self, hook: pluggy.HookRelay, interruption: Interruption) -> None:
+        hook.sphframe_run_started(simulation=self)
+        while True:
+            if self._is_due(self.samples, self.case.probe_interval):
+                hook.sphframe_probes_due(simulation=self)
+                self.samples += 1
+            if self._is_due(self.frames, self.case.frame_interval):
+                check_promises(self.system, self.components["interpolator"], self.components["kernel"], self.case)
+                hook.sphframe_frame_due(simulation=self)
+                self.frames += 1
+            if self.time >= self.case.until:
+                return
+            self.advance()
+            hook.sphframe_step_completed(simulation=self)
+            interruption.raise_if_asked()
 
     def _is_due(self, number: int, interval: float) -> bool:
         return self.time >= number * interval - 1e-9 * interval

@@ -229,3 +229,28 @@ def test_a_body_and_a_hook_that_raise(small: ModuleType, tmp_path: Path) -> None
 
     with pytest.raises(SimulationError, match=r"body 'seawall' failed: SpringMass.motion .*ZeroDivisionError"):
         run(small.small_case(2), output=tmp_path / "b.nc", threads=1, hooks=[Tamper(3, break_body)])
+
+
+HOOK = """
+from sphframe import hookimpl
+
+class Sensor:
+    @hookimpl
+    def sphframe_step_completed(self, simulation):
+        if simulation.step == 3:
+            raise LookupError("no such sensor")
+"""
+
+
+def test_an_installed_hook_that_raises_is_named(install: Any, here: Path) -> None:
+    install("bad-hook", {"bad_hook": HOOK}, {"hooks": {"sensor": "bad_hook:Sensor"}})
+    arguments = ["run", "hydrostatic-tank", "--set", "particle_spacing=0.05", "--until", "0.1", "--output", "run.nc"]
+    result = CliRunner().invoke(app, arguments, env={"COLUMNS": "400", "NO_COLOR": "1"})
+    assert result.exit_code == 3, result.output
+    assert "'sensor' of bad-hook 1.0 failed: LookupError: no such sensor" in result.stderr
+    assert "pip uninstall bad-hook" in result.stderr
+    assert "step 3" in result.stderr
+    assert "Traceback" not in result.output
+    with open_dataset("run.nc") as dataset:
+        assert dataset.attrs["run_status"] == "failed"
+        assert np.isfinite(dataset.position.values).all()
