@@ -2,17 +2,22 @@
 
 from sphframe.analysis.accessor import SphAccessor
 from sphframe.analysis.convergence import convergence_order, convergence_orders
+from sphframe.analysis.export import export_csv, export_run, vtk_parts
 from sphframe.analysis.fields import free_surface, particles_at, to_grid
+from sphframe.analysis.films import animate_run
 from sphframe.analysis.plots import plot_run
 from sphframe.analysis.probes import probe_statistics, series_error
-from sphframe.analysis.reference import read_reference_series
+from sphframe.analysis.reference import read_reference_series, references_for
 from sphframe.analysis.scales import pressure_scale, rest_pressure, time_scale
 from sphframe.analysis.summary import front_arrival, summary
 
 __all__ = [
     "SphAccessor",
+    "animate_run",
     "convergence_order",
     "convergence_orders",
+    "export_csv",
+    "export_run",
     "free_surface",
     "front_arrival",
     "particles_at",
@@ -20,9 +25,11 @@ __all__ = [
     "pressure_scale",
     "probe_statistics",
     "read_reference_series",
+    "references_for",
     "rest_pressure",
     "series_error",
     "summary",
     "time_scale",
     "to_grid",
+    "vtk_parts",
 ]

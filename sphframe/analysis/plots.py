@@ -74,8 +74,8 @@ def plot_run(
     panel = (width - 1.6) / columns * (y1 - y0) / (x1 - x0) + 0.32
     panel = min(panel, 4.0)
     below = 2.5 if dataset.sizes["probe_time"] > 1 else 0.0
-    figure = make_figure(figsize=(width, rows * panel + below + 0.6), dpi=150, layout="constrained")
-    grid = figure.add_gridspec(2 if below else 1, 1, height_ratios=[rows * panel, below] if below else [1.0])
+    figure = make_figure(figsize=(width, rows * panel + below + 1.0), dpi=150, layout="constrained")
+    grid = figure.add_gridspec(2 if below else 1, 1, height_ratios=[rows * panel + 0.4, below] if below else [1.0])
     upper = figure.add_subfigure(grid[0])
     low, high = colour_limits(dataset, frames, field)
     panels = upper.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)

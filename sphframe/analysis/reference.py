@@ -1,6 +1,7 @@
 """Analysis: reference series that the user keeps in a folder."""
 
 import os
+import re
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,7 @@ import xarray as xr
 
 from sphframe.errors import InputError
 
-__all__ = ["read_reference_series"]
+__all__ = ["read_reference_series", "references_for"]
 
 
 def read_reference_series(folder: str | os.PathLike[str], name: str, column: int | str = 1) -> xr.DataArray:
@@ -65,3 +66,29 @@ def read_reference_series(folder: str | os.PathLike[str], name: str, column: int
     )
     series["t"].attrs["long_name"] = names[0]
     return series
+
+
+def references_for(dataset: xr.Dataset, source: str | os.PathLike[str]) -> list[xr.DataArray]:
+    """Read the reference series that belong to the probes of a run.
+
+    Parameters
+    ----------
+    dataset: the run.
+    source: a file ``NAME.csv``; or a folder, of which each file is read whose name has a probe's name between
+        underscores, such as ``buchner_P1.csv``.
+
+    Raises
+    ------
+    InputError: the file is missing or no such table, or the folder has no series for a probe of the run.
+    """
+    source = Path(source)
+    if not source.is_dir():
+        return [read_reference_series(source.parent, source.stem)]
+    probes = {str(name) for name in dataset["probe"].values} if "probe_pressure" in dataset else set()
+    names = sorted(path.stem for path in source.glob("*.csv") if probes & set(re.split("_", path.stem)))
+    if not names:
+        raise InputError(
+            f"{source} holds no series for a probe of this run ({', '.join(sorted(probes)) or 'it has none'}): name a"
+            " file, or call it after the probe, such as measured_P1.csv"
+        )
+    return [read_reference_series(source, name) for name in names]

@@ -27,6 +27,9 @@ sphframe {version}: a laboratory for wall boundaries in SPH free-surface flow
   sphframe resume dam-break.nc  continue a run that was interrupted
   sphframe compare dam-break    several methods and resolutions side by side
   sphframe reproduce            the whole paper, with a report of what it shows
+  sphframe plot dam-break.nc    pictures: particles, probes, energies
+  sphframe animate dam-break.nc a film, .mp4 or .gif
+  sphframe export dam-break.nc  for ParaView (vtkhdf, pvd), or csv
   sphframe list                 what is installed: cases, interpolation methods, ...
   sphframe show dam-break       a case's parameters, units, defaults and presets
   sphframe new-plugin           start a boundary interpolation method of your own
@@ -253,6 +256,64 @@ def _reproduce(
         scheduler=scheduler,
         output=output,
     )
+
+
+OutputFile = Annotated[Path, typer.Argument(metavar="FILE", help="output file (.nc) of a run, finished or still going")]
+DrawnField = Annotated[str, typer.Option(metavar="NAME", help="pressure, speed or density")]
+
+
+@app.command("plot")
+def _plot(
+    file: OutputFile,
+    field: DrawnField = "pressure",
+    times: Annotated[
+        list[float] | None,
+        typer.Option("--time", parser=_seconds, metavar="SECONDS", help="repeatable; by default four times"),
+    ] = None,
+    references: Annotated[
+        list[Path] | None,
+        typer.Option("--reference", metavar="PATH", help="a .csv of p/(rho g H) over t sqrt(g/H), or a folder of them"),
+    ] = None,
+    surface: Annotated[bool, typer.Option("--surface", help="draw the free surface")] = False,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="FILE", help=".png, .pdf or .svg; by default FILE.png")
+    ] = None,
+) -> None:
+    """Draw a run: particles at several times, probes beside reference series, energies."""
+    from sphframe.cli.plot import plot_command
+
+    plot_command(file, field=field, times=times or [], references=references or [], surface=surface, output=output)
+
+
+@app.command("animate")
+def _animate(
+    file: OutputFile,
+    field: DrawnField = "pressure",
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="FILM", help=".mp4 or .gif; by default FILE.mp4")
+    ] = None,
+    frames_per_second: Annotated[
+        float, typer.Option("--fps", metavar="N", help="frames a second that the film plays")
+    ] = 25.0,
+) -> None:
+    """Write a film of a run."""
+    from sphframe.cli.animate import animate_command
+
+    animate_command(file, field=field, output=output, frames_per_second=frames_per_second)
+
+
+@app.command("export")
+def _export(
+    file: OutputFile,
+    to: Annotated[str, typer.Option(metavar="FORMAT", help="vtkhdf, pvd or csv")] = "vtkhdf",
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="FOLDER", help="by default FILE-FORMAT")
+    ] = None,
+) -> None:
+    """Write a run for ParaView with walls and ghosts, or its sampled series as a table."""
+    from sphframe.cli.export import export_command
+
+    export_command(file, to=to, output=output)
 
 
 @app.command("list")

@@ -1,0 +1,158 @@
+"""Analysis: a run for ParaView (VTKHDF, or a PVD series) and its sampled series as CSV.
+
+VTK writes the files; PyVista makes its data sets from arrays. Positions have three components, with z = 0 in 2-D.
+"""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from sphframe.analysis.drawing import walls_at
+from sphframe.analysis.fields import particles_at
+from sphframe.errors import InputError, OutputError
+
+if TYPE_CHECKING:
+    import pyvista
+
+__all__ = ["FORMATS", "export_csv", "export_run", "vtk_parts"]
+
+FORMATS = ("vtkhdf", "pvd", "csv")
+
+
+def export_run(dataset: xr.Dataset, folder: str | os.PathLike[str], to: str, *, track: Any = iter) -> list[Path]:
+    """Write a run into ``folder`` and return the files to open.
+
+    Parameters
+    ----------
+    dataset: the run, finished or still going.
+    folder: made if it is missing; files of an earlier export are replaced.
+    to: ``vtkhdf`` for one file per part and frame (VTK's HDF format), ``pvd`` for one series per part that ParaView
+        opens with its times, ``csv`` for probes, gauges, energies and diagnostics. The parts are ``fluid``, ``ghosts``
+        and ``walls``.
+    track: wraps the list of times, such as ``rich.progress.track``.
+
+    Raises
+    ------
+    InputError: the format is unknown, the run has no frame yet, or PyVista is not installed.
+    OutputError: a file cannot be written.
+    """
+    if to not in FORMATS:
+        raise InputError(f"no format {to!r}; choose one of {', '.join(FORMATS)}")
+    folder = Path(folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if to == "csv":
+            return [export_csv(dataset, folder / "series.csv")]
+        return _export_vtk(dataset, folder, to, track)
+    except OSError as error:
+        raise OutputError(f"cannot write to {folder}: {error.strerror or error}; choose another --output") from None
+
+
+def export_csv(dataset: xr.Dataset, path: str | os.PathLike[str]) -> Path:
+    """Write all sampled series over time into one table, a column each, named ``variable[label] (unit)``."""
+    columns = {}
+    for name, variable in dataset.data_vars.items():
+        if variable.dims[:1] == ("probe_time",):
+            rest = variable.dims[1:]
+            for label in np.ndindex(*(variable.sizes[dim] for dim in rest)):
+                chosen = variable[(slice(None), *label)]
+                labels = ",".join(str(chosen[dim].values) for dim in rest if dim in chosen.coords)
+                heading = f"{name}[{labels}]" if rest else str(name)
+                columns[f"{heading} ({variable.attrs.get('units', '1')})"] = chosen.values
+    table = xr.Dataset(
+        {heading: ("probe_time", values) for heading, values in columns.items()},
+        coords={"time (s)": ("probe_time", dataset["probe_time"].values)},
+    ).drop_vars("probe_time", errors="ignore")
+    table.to_dataframe().set_index("time (s)").to_csv(path)
+    return Path(path)
+
+
+def vtk_parts(dataset: xr.Dataset, time: float | None = None) -> "dict[str, pyvista.PolyData]":
+    """``fluid``, ``ghosts`` and ``walls`` at the frame nearest to ``time``, as VTK data sets, those that the run has.
+
+    The ghosts of moving walls are where they were at the start: a run's file does not say where they go.
+
+    Raises
+    ------
+    InputError: the run has no frame yet, or PyVista is not installed.
+    """
+    try:
+        import pyvista
+    except ImportError:
+        raise InputError("exports for ParaView need PyVista: install it with pip install 'sphframe[vtk]'") from None
+    frame = particles_at(dataset, time)
+    alive = np.isfinite(frame["position"].values).all(axis=1)
+    fluid = pyvista.PolyData(_in_space(frame["position"].values[alive]))
+    for name in ("pressure", "density", "speed"):
+        fluid[name] = frame[name].values[alive]
+    fluid["velocity"] = _in_space(frame["velocity"].values[alive])
+    fluid["mass"] = dataset["particle_mass"].values[alive]
+    fluid["id"] = np.flatnonzero(alive)
+    parts = {"fluid": fluid}
+    now = float(frame["time"])
+    if "ghost_position" in dataset:
+        ghosts = pyvista.PolyData(_in_space(dataset["ghost_position"].values))
+        ghosts["pressure"] = dataset["ghost_pressure"].sel(time=now).values
+        parts["ghosts"] = ghosts
+    lines = walls_at(dataset, now)
+    if lines:
+        walls = pyvista.PolyData()
+        walls.points = np.concatenate([_in_space(points) for points, _ in lines])
+        starts = np.cumsum([0, *(len(points) for points, _ in lines)])
+        walls.lines = np.concatenate(
+            [[len(p), *range(s, s + len(p))] for s, (p, _) in zip(starts, lines, strict=False)]
+        )
+        walls["wall"] = np.concatenate([np.full(len(points), wall) for points, wall in lines])
+        parts["walls"] = walls
+    return parts
+
+
+def _export_vtk(dataset: xr.Dataset, folder: Path, to: str, track: Callable[..., Any]) -> list[Path]:
+    ending = "vtp" if to == "pvd" else "vtkhdf"
+    written: dict[str, list[tuple[float, Path]]] = {}
+    times = [float(time) for time in dataset["time"].values]
+    if not times:
+        particles_at(dataset)  # says that there is no frame yet
+    for number, time in enumerate(track(times)):
+        for part, mesh in vtk_parts(dataset, time).items():
+            path = folder / f"{part}_{number:04d}.{ending}"
+            mesh.field_data["TimeValue"] = [time]
+            if to == "pvd":
+                mesh.save(path)
+            else:
+                _write_hdf(mesh, path)
+            written.setdefault(part, []).append((time, path))
+    if to == "vtkhdf":
+        return [path for files in written.values() for _, path in files]
+    return [_write_pvd(folder / f"{part}.pvd", files) for part, files in written.items()]
+
+
+def _write_hdf(mesh: Any, path: Path) -> None:
+    from vtkmodules.vtkIOHDF import vtkHDFWriter
+
+    path.unlink(missing_ok=True)
+    writer = vtkHDFWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(mesh)
+    if not writer.Write() or not path.exists():
+        raise OutputError(f"cannot write {path}; choose another --output")
+
+
+def _write_pvd(path: Path, files: list[tuple[float, Path]]) -> Path:
+    root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
+    collection = ElementTree.SubElement(root, "Collection")
+    for time, file in files:
+        ElementTree.SubElement(collection, "DataSet", timestep=repr(time), part="0", file=file.name)
+    ElementTree.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
+    return path
+
+
+def _in_space(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Vectors (n, dim) with a third component, zero in 2-D."""
+    return np.pad(vectors, ((0, 0), (0, 3 - vectors.shape[1])))

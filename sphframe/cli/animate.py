@@ -1,0 +1,29 @@
+"""CLI: ``sphframe animate``."""
+
+import time
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import track
+
+from sphframe.analysis import animate_run
+from sphframe.output import open_dataset
+
+__all__ = ["animate_command"]
+
+
+def animate_command(path: Path, *, field: str, output: Path | None, frames_per_second: float) -> None:
+    """Write a film of a run, finished or still going."""
+    target = output or path.with_suffix(".mp4")
+    console = Console(stderr=True)
+    began = time.monotonic()
+    with open_dataset(path) as dataset:
+        count = animate_run(
+            dataset,
+            target,
+            field=field,
+            frames_per_second=frames_per_second,
+            track=lambda times: track(times, "drawing", console=console, disable=not console.is_terminal),
+        )
+    elapsed = max(time.monotonic() - began, 1e-9)
+    print(f"wrote {target}: {count} frames, {count / frames_per_second:.1f} s, drawn at {count / elapsed:.0f} a second")

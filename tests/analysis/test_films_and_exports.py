@@ -1,0 +1,122 @@
+"""Films and exports hold what the dataset holds, as other programs read them."""
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from typer.testing import CliRunner
+
+import sphframe
+from sphframe.analysis import animate_run, export_run, plot_run, references_for
+from sphframe.analysis.films import film_frames
+from sphframe.cli.app import app
+from sphframe.errors import InputError
+
+
+def test_frames_of_a_film_show_the_water(tank: xr.Dataset) -> None:
+    still, moved = film_frames(tank, times=[0.0, 0.02])
+    assert still.shape == moved.shape
+    assert still.shape[1] == 1280
+    assert not any(size % 2 for size in still.shape[:2])
+    coloured = np.ptp(still[:, :1150, :3].astype(int), axis=2) > 40  # neither grey nor white, left of the colour bar
+    assert coloured.sum() > 20_000
+    assert (still != moved).any(), "the time, at least, changes"
+
+
+@pytest.mark.parametrize("ending", ["mp4", "gif"])
+def test_film_is_read_back(tank: xr.Dataset, tmp_path: Path, ending: str) -> None:
+    imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg")
+    film = tmp_path / f"tank.{ending}"
+    going = tank.assign_attrs(completed="no", run_status="running")
+    count = animate_run(going, film, field="speed")
+    assert count == tank.sizes["time"]
+    assert imageio_ffmpeg.count_frames_and_secs(str(film))[0] == count
+
+
+def test_films_that_cannot_be(tank: xr.Dataset, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"\.mp4 or \.gif"):
+        animate_run(tank, tmp_path / "tank.avi")
+    with pytest.raises(InputError, match="no frame yet"):
+        animate_run(tank.isel(time=slice(0)), tmp_path / "tank.gif")
+
+
+@pytest.mark.parametrize("to", ["vtkhdf", "pvd"])
+@pytest.mark.parametrize("name", ["tank", "tank_3d"])
+def test_vtk_reads_what_was_exported(name: str, to: str, tmp_path: Path, request: pytest.FixtureRequest) -> None:
+    pyvista = pytest.importorskip("pyvista")
+    dataset = request.getfixturevalue(name)
+    export_run(dataset, tmp_path, to)
+    ending = "vtp" if to == "pvd" else "vtkhdf"
+    last = dataset.sizes["time"] - 1
+    fluid, ghosts, walls = (_read(tmp_path / f"{part}_{last:04d}.{ending}") for part in ("fluid", "ghosts", "walls"))
+    frame = dataset.isel(time=-1)
+    dim = dataset.sizes["space"]
+    assert fluid.n_points == dataset.sizes["particle"]
+    np.testing.assert_array_equal(fluid.points[:, :dim], frame["position"])
+    for field in ("pressure", "density"):
+        np.testing.assert_array_equal(fluid[field], frame[field])
+    np.testing.assert_array_equal(fluid["velocity"][:, :dim], frame["velocity"])
+    low, high = (f(frame["position"].values, axis=0) for f in (np.min, np.max))
+    np.testing.assert_allclose(np.reshape(fluid.bounds, (3, 2))[:dim], np.stack([low, high], axis=1))
+    assert ghosts.n_points == dataset.sizes["ghost"]
+    np.testing.assert_array_equal(ghosts["pressure"], frame["ghost_pressure"])
+    np.testing.assert_array_equal(walls.points[:, :dim], dataset["outline_node"])
+    if to == "pvd":
+        steps = ElementTree.parse(tmp_path / "fluid.pvd").findall("./Collection/DataSet")
+        np.testing.assert_array_equal([float(step.get("timestep", "")) for step in steps], dataset["time"])
+        assert pyvista.PVDReader(tmp_path / "fluid.pvd").time_values == dataset["time"].values.tolist()
+
+
+def _read(path: Path):  # type: ignore[no-untyped-def]
+    import pyvista
+
+    if path.suffix == ".vtp":
+        return pyvista.read(path)
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+
+    reader = vtkHDFReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    return pyvista.wrap(reader.GetOutput())
+
+
+def test_csv_holds_all_samples(tank: xr.Dataset, tmp_path: Path) -> None:
+    (path,) = export_run(tank, tmp_path / "tables", "csv")
+    table = pd.read_csv(path)
+    np.testing.assert_allclose(table["time (s)"], tank["probe_time"])
+    np.testing.assert_allclose(table["probe_pressure[P0] (Pa)"], tank["probe_pressure"].sel(probe="P0"))
+    np.testing.assert_allclose(table["total_energy (J m-1)"], tank["total_energy"])
+    with pytest.raises(InputError, match="vtkhdf, pvd, csv"):
+        export_run(tank, tmp_path, "vtk")
+
+
+def test_references_of_a_folder_are_those_of_the_probes(tank: xr.Dataset, tmp_path: Path) -> None:
+    for name in ("measured_P0", "measured_P9"):
+        (tmp_path / f"{name}.csv").write_text("# columns: t,p\n0,1\n0.1,1\n")
+    found = references_for(tank, tmp_path)
+    assert [series.name for series in found] == ["measured_P0"]
+    shown = [text.get_text() for text in plot_run(tank, reference=found).findobj() if hasattr(text, "get_text")]
+    assert "measured_P0" in shown
+    (tmp_path / "measured_P0.csv").unlink()
+    with pytest.raises(InputError, match=r"measured_P1\.csv"):
+        references_for(tank, tmp_path)
+
+
+def test_commands(tmp_path: Path) -> None:
+    path = tmp_path / "tank.nc"
+    case = {"particle_spacing": 0.025, "until": 0.002, "frame_interval": 0.001, "courant_number": 0.3}
+    sphframe.run("hydrostatic-tank", output=path, threads=1, **case).dataset.close()
+    for arguments, made in (
+        (["plot", str(path), "--time", "0.001", "--surface"], "tank.png"),
+        (["animate", str(path), "-o", str(tmp_path / "tank.gif")], "tank.gif"),
+        (["export", str(path), "--to", "csv"], "tank-csv/series.csv"),
+        (["export", str(path), "--to", "pvd"], "tank-pvd/fluid.pvd"),
+    ):
+        result = CliRunner().invoke(app, arguments)
+        assert result.exit_code == 0, result.output
+        assert made in result.output.replace("\n", "")
+        assert (tmp_path / made).stat().st_size > 100
+    assert CliRunner().invoke(app, ["plot", str(path), "--field", "colour"]).exit_code == 2
