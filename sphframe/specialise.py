@@ -52,14 +52,28 @@ def compile_part(function: Callable[..., Any]) -> Any:
     """Compile one part for use inside loops; a function with the same fingerprint is compiled once per process."""
     if isinstance(function, Dispatcher) or _jit_is_disabled():
         return function
+    return _compiled_once(function, {"error_model": "numpy", "fastmath": {"contract", "reassoc", "nsz"}})
+
+
+def _compiled_once(function: Any, options: dict[str, Any]) -> Any:
+    """Compile a copy of ``function``, and of the compiled functions in its closure, under a name that is its own.
+
+    Numba tells machine code apart by qualified name and a counter that starts anew in every process. Without the hash
+    in the name, a loop from the disk cache may bring a namesake with other closure values, which then runs instead.
+    """
     key = fingerprint(function)
     if key not in _parts:
-        # Numba tells machine code apart by qualified name and a counter that starts anew in every process. Without the
-        # hash, a loop from the disk cache may bring a namesake with other closure values, which then runs instead.
         copy = _rebind(function, {})
-        copy.__qualname__ = f"{function.__qualname__}_{key}"
-        _parts[key] = numba.njit(error_model="numpy", fastmath={"contract", "reassoc", "nsz"})(copy)
+        copy.__qualname__ = f"{copy.__qualname__}_{key}"
+        _parts[key] = numba.jit(**{"nopython": True, **options})(copy)
     return _parts[key]
+
+
+def _own(item: Any) -> Any:
+    """Return what a closure holds; a function that was compiled inside another one under a name of its own."""
+    if isinstance(item, Dispatcher) and "<locals>" in item.py_func.__qualname__:
+        return _compiled_once(item, item.targetoptions)
+    return item
 
 
 def fingerprint(function: Any) -> str:
@@ -78,10 +92,11 @@ def _jit_is_disabled() -> bool:
 def _rebind(template: Callable[..., Any], bound: dict[str, Any]) -> types.FunctionType:
     plain = template.py_func if isinstance(template, Dispatcher) else template
     assert isinstance(plain, types.FunctionType)
+    closure = plain.__closure__ and tuple(types.CellType(_own(cell.cell_contents)) for cell in plain.__closure__)
     copy = types.FunctionType(
-        plain.__code__, {**plain.__globals__, **bound}, plain.__name__, plain.__defaults__, plain.__closure__
+        plain.__code__, {**plain.__globals__, **bound}, plain.__name__, plain.__defaults__, closure
     )
-    copy.__module__ = plain.__module__
+    copy.__module__, copy.__qualname__ = plain.__module__, plain.__qualname__
     return copy
 
 

@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 MODULE = """
 import math
 import sys
@@ -35,8 +37,25 @@ for value in sys.argv[1:]:
 """
 
 
-def test_namesakes_from_the_cache_stay_apart(tmp_path: Path) -> None:
-    (tmp_path / "loops.py").write_text(MODULE)
+HELPED = """
+import numba
+
+def jitted(part):
+    return numba.njit(part)
+
+""" + MODULE.replace(
+    "    return part\n",
+    """\
+    helper = jitted(part)
+    return lambda x, y: helper(x, y)
+""",
+)
+"""the same in a function that the part calls"""
+
+
+@pytest.mark.parametrize("module", [MODULE, HELPED], ids=["part", "helper of a part"])
+def test_namesakes_from_the_cache_stay_apart(tmp_path: Path, module: str) -> None:
+    (tmp_path / "loops.py").write_text(module)
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache"), "PYTHONPATH": str(tmp_path)}
 
     def run(*values: str) -> list[str]:

@@ -13,6 +13,7 @@ from rich.table import Table
 from sphframe.analysis import summary
 from sphframe.cases import Case, CaseWarning, load_case
 from sphframe.cli.progress import ProgressDisplay
+from sphframe.cli.values import look_here_for_code
 from sphframe.errors import InputError, OutputError, ResumeWarning
 from sphframe.hooks import hook_manager
 from sphframe.output import CheckpointWriter, NetCDFWriter, open_dataset
@@ -34,6 +35,7 @@ def run_command(
 ) -> None:
     """Run a case and say what happened and what was written."""
     log = console_log()
+    look_here_for_code(overrides.values())
     case = load_case(source, preset=preset, overrides=overrides)
     path = output or Path(f"{_stem(source)}.nc")
     if path.suffix != ".nc":

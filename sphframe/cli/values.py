@@ -1,12 +1,15 @@
 """CLI: parameters given as text."""
 
+import os
+import sys
 import tomllib
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from sphframe.errors import InputError
+from sphframe.registry import is_address
 
-__all__ = ["read_assignments"]
+__all__ = ["look_here_for_code", "read_assignments"]
 
 
 def read_assignments(assignments: Iterable[str], options: Mapping[str, str | None]) -> dict[str, Any]:
@@ -33,6 +36,12 @@ def read_assignments(assignments: Iterable[str], options: Mapping[str, str | Non
             raise InputError(f"{key} is given twice; give it once")
         parameters[key] = _value(value.strip())
     return parameters
+
+
+def look_here_for_code(names: Iterable[Any]) -> None:
+    """Let modules in the working directory be found, after all installed ones, where a name is ``module:attribute``."""
+    if any(isinstance(name, str) and is_address(name) for name in names) and os.getcwd() not in sys.path:
+        sys.path.append(os.getcwd())
 
 
 def _value(text: str) -> Any:

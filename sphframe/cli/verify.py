@@ -10,6 +10,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from sphframe.cli.values import look_here_for_code
 from sphframe.errors import InputError
 
 if TYPE_CHECKING:
@@ -54,6 +55,7 @@ def verify(names: Sequence[str] = (), *, as_json: bool = False) -> int:
     """
     if find_spec("hypothesis") is None:
         raise InputError("the verification suite needs hypothesis: python -m pip install 'sphframe[testing]'")
+    look_here_for_code(names)
     from sphframe.testing import verify as reports_of
 
     if as_json:

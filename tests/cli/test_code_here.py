@@ -1,0 +1,41 @@
+"""A method in a file of the working directory is found by ``module:attribute``, as the tutorial says."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+METHOD = """
+from dataclasses import dataclass
+from sphframe import BoundaryInterpolator, OK, Traits
+
+@dataclass(frozen=True)
+class Mean(BoundaryInterpolator):
+    traits = Traits(non_negative=True, range_restricted=True, volume_independent=True, continuous=False)
+
+    def point_weights(self, kernel, dim):
+        def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+            for j in range(distances.shape[0]):
+                out[j] = 1.0 / distances.shape[0]
+            return OK
+        return weights
+"""
+
+
+def test_run_and_verify_find_a_module_in_the_working_directory(tmp_path: Path) -> None:
+    (tmp_path / "of_mine.py").write_text(METHOD)
+    start = "import sys; sys.path = [p for p in sys.path if p]; from sphframe.cli.app import main; sys.exit(main())"
+    environment = {**os.environ, "PYTHONSAFEPATH": "1", "NO_COLOR": "1"}
+
+    def sphframe(*arguments: str) -> subprocess.CompletedProcess[str]:
+        command = [sys.executable, "-P", "-c", start, *arguments]
+        return subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+
+    absent = sphframe("verify", "of_mine:Absent")  # quicker than a whole verification: the module is found
+    assert absent.returncode == 2
+    assert "has no attribute 'Absent'" in absent.stderr
+    ran = sphframe(
+        "run", "hydrostatic-tank", "--set", "particle_spacing=0.05", "--until", "0.01", "--interpolator", "of_mine:Mean"
+    )
+    assert ran.returncode == 0, ran.stderr
+    assert (tmp_path / "hydrostatic-tank.nc").exists()
