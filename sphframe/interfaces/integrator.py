@@ -57,7 +57,7 @@ class Integrator(ABC):
     stability_limit: ClassVar[float]
     """largest stable c0 dt / h of the linearised scheme on a lattice"""
     courant_number: ClassVar[float]
-    """recommended (c0 + |u|max) dt / h"""
+    """recommended ``(c0 + |u|max) dt / h``"""
 
     @abstractmethod
     def step(self, system: System, time: float, time_step: float) -> None:
