@@ -42,9 +42,9 @@ def specialise(template: Callable[..., Any], parts: dict[str, Any], *, parallel:
     key = f"{fingerprint(function)}{'p' if parallel else 's'}"
     if key not in _loops:
         function.__qualname__ = f"{template.__qualname__}_{key}"
-        _loops[key] = numba.njit(
-            parallel=parallel, cache=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz"}
-        )(function)
+        _loops[key] = numba.njit(parallel=parallel, cache=True, error_model="numpy", fastmath={"contract", "nsz"})(
+            function
+        )
     return _loops[key]
 
 
@@ -52,7 +52,7 @@ def compile_part(function: Callable[..., Any]) -> Any:
     """Compile one part for use inside loops; a function with the same fingerprint is compiled once per process."""
     if isinstance(function, Dispatcher) or _jit_is_disabled():
         return function
-    return _compiled_once(function, {"error_model": "numpy", "fastmath": {"contract", "reassoc", "nsz"}})
+    return _compiled_once(function, {"error_model": "numpy", "fastmath": {"contract", "nsz"}})
 
 
 def _compiled_once(function: Any, options: dict[str, Any]) -> Any:

@@ -21,18 +21,20 @@ __all__ = ["put_back"]
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
 def put_back(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, fluid_counts, ghost_counts, dim, spacing, mirror, wall_velocity
+    rows, fluid_count, lists, cluster, fluid_counts, ghost_counts, dim, spacing, mirror, wall_velocity
 ):
     """Put particles behind a wall back on it, in ``rows``; return how many there were.
 
-    ``mirror``, ``wall_velocity`` (g, dim): mirror points, m, and velocities, m/s, of the walls at the ghosts.
+    A row of ``lists`` serves ``cluster`` particles; ``mirror``, ``wall_velocity`` (g, dim): mirror points, m, and
+    velocities, m/s, of the walls at the ghosts.
     """
     contacts = 0
     for i in numba.prange(fluid_count):
         nearest = -1
         closest = spacing * spacing
-        for k in range(fluid_counts[i], fluid_counts[i] + ghost_counts[i]):
-            j = lists[i, k]
+        c = i // cluster
+        for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
+            j = lists[c, k]
             distance2 = 0.0
             span2 = 0.0
             for d in range(dim):

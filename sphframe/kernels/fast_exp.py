@@ -10,7 +10,7 @@ _AT_CENTRE = math.exp(-4.5)
 _C2, _C3, _C4, _C5, _C6, _C7, _C8, _C9, _C10 = (1.0 / math.factorial(k) for k in range(2, 11))
 
 
-@numba.njit(error_model="numpy", fastmath={"contract", "reassoc", "nsz"})
+@numba.njit(error_model="numpy", fastmath={"contract", "nsz"})
 def fast_exp(x: float) -> float:
     """Return exp(x) for -9 <= x <= 0, with a relative error below 2e-14.
 

@@ -1,7 +1,7 @@
-"""Neighbours: a grid of cells, each at least as wide as the search radius.
+"""Neighbours: a grid of cells, half as wide as the search radius, and the order of particles along it.
 
-The cells of one grid row are numbered consecutively along the last axis, so three neighbouring cells of a row are one
-range of the sorted particles. One ring of empty cells surrounds the grid: no loop checks a border.
+Cells are numbered along the last axis, row after row, every other row backwards: consecutive cells touch, and so do
+particles sorted by cell. The cells of one row that a box overlaps are always one range of numbers.
 """
 
 import math
@@ -11,7 +11,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Grid", "assign_cells", "counting_sort", "grid_around"]
+__all__ = ["Grid", "assign_cells", "cell_number", "counting_sort", "grid_around"]
 
 Array = NDArray[np.float64]
 
@@ -33,33 +33,50 @@ class Grid:
         return self.shape[0] * self.shape[1] * self.shape[2]
 
 
-def grid_around(lower: Array, upper: Array, radius: float) -> Grid:
-    """Return the grid whose inner cells cover the box ``lower`` .. ``upper`` (dim,)."""
+def grid_around(lower: Array, upper: Array, cell: float, margin: float) -> Grid:
+    """Return the grid whose cells cover the box ``lower`` .. ``upper`` (dim,) and ``margin`` around it."""
     dim = len(lower)
     origin = np.zeros(3)
     shape = [1, 1, 1]
     for k in range(dim):
         axis = 3 - dim + k
-        shape[axis] = math.floor((upper[k] - lower[k]) / radius) + 4
-        origin[axis] = lower[k] - 1.001 * radius  # round-off must not put the lowest particle into the ring
-    return Grid(origin, radius, (shape[0], shape[1], shape[2]))
+        origin[axis] = lower[k] - margin - 0.001 * cell  # round-off must not put the lowest particle outside
+        shape[axis] = math.floor((upper[k] + margin - origin[axis]) / cell) + 1
+    return Grid(origin, cell, (shape[0], shape[1], shape[2]))
+
+
+@numba.njit(inline="always")
+def row_number(shape, a, b):  # type: ignore[no-untyped-def]
+    """Return the number of the row of cells (a, b, :)."""
+    return a * shape[1] + (shape[1] - 1 - b if a % 2 else b)
+
+
+@numba.njit(inline="always")
+def cell_number(shape, row, c):  # type: ignore[no-untyped-def]
+    """Return the number of the cell with index ``c`` in a row."""
+    return row * shape[2] + (shape[2] - 1 - c if row % 2 else c)
 
 
 @numba.njit(parallel=True, cache=True)
 def assign_cells(rows, dim, origin, cell, shape, cells):  # type: ignore[no-untyped-def]
-    """Write the cell number of each row's position to ``cells``; -1 outside the inner cells and their ring."""
+    """Write the cell number of each row's position to ``cells``; -1 outside the grid."""
     for i in numba.prange(cells.shape[0]):
-        number = 0
-        for k in range(3):
-            index = 0
-            if k >= 3 - dim:
-                offset = (rows[i, k - 3 + dim] - origin[k]) / cell
-                if not (offset >= 0.0 and offset < shape[k]):
-                    number = -1
-                    break
-                index = int(offset)
-            number = number * shape[k] + index
-        cells[i] = number
+        inside = True
+        a = b = c = 0
+        for k in range(dim):
+            axis = 3 - dim + k
+            offset = (rows[i, k] - origin[axis]) / cell
+            if not (offset >= 0.0 and offset < shape[axis]):
+                inside = False
+                break
+            index = int(offset)
+            if axis == 0:
+                a = index
+            elif axis == 1:
+                b = index
+            else:
+                c = index
+        cells[i] = cell_number(shape, row_number(shape, a, b), c) if inside else -1
 
 
 @numba.njit(cache=True)

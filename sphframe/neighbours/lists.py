@@ -1,14 +1,17 @@
 """Neighbours: lists of all particles within the search radius, good until something has crossed half the skin.
 
-A list holds, row by row, first the fluid neighbours and then the ghosts. The search radius is the kernel support
-plus the skin, so the lists stay complete while no two particles have approached each other by more than the skin.
+A list serves a cluster of consecutive particles, which touch each other since particles are kept in spatial order: it
+holds whatever is within the search radius of any of them, first fluid particles and then ghosts. A pair loop copies a
+cluster's neighbourhood once and then reads it from consecutive memory for each member: that costs less than the pairs
+too many, which lie beyond the kernel support and get no weight. The search radius is the kernel support plus the skin,
+so the lists stay complete while no two particles have approached each other by more than the skin.
 """
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from sphframe.neighbours.cells import Grid, assign_cells, counting_sort, grid_around
+from sphframe.neighbours.cells import Grid, assign_cells, cell_number, counting_sort, grid_around, row_number
 
 __all__ = ["NeighbourLists"]
 
@@ -20,21 +23,27 @@ class NeighbourLists:
 
     Attributes
     ----------
-    fluid: (n, capacity) uint32; row i holds ``fluid_counts[i]`` fluid neighbours, then ``ghost_counts[i]`` ghosts,
-        as indices of rows.
+    cluster: number of particles that share a list; with 1 the lists hold exactly the neighbours of each particle, with
+        more also the members of the cluster themselves.
+    fluid: (clusters, capacity) uint32; row c holds ``fluid_counts[c]`` fluid neighbours, then ``ghost_counts[c]``
+        ghosts, as indices of rows.
     points: (g, capacity) uint32 fluid neighbours of each evaluation point, ``point_counts`` (g,) of them.
     """
 
-    def __init__(self, dim: int, fluid_count: int, ghost_count: int, support: float, skin: float) -> None:
+    def __init__(
+        self, dim: int, fluid_count: int, ghost_count: int, support: float, skin: float, cluster: int = 1
+    ) -> None:
         self.dim = dim
         self.support = support
         self.skin = skin
+        self.cluster = cluster
         self.fluid_count = fluid_count
         self.ghost_count = ghost_count
-        self.fluid = np.empty((fluid_count, 0), np.uint32)
-        self.fluid_counts = np.zeros(fluid_count, np.uint32)
-        self.ghost_counts = np.zeros(fluid_count, np.uint32)
-        self.points = np.empty((ghost_count, 0), np.uint32)
+        clusters = -(-fluid_count // cluster)
+        self.fluid = np.empty((clusters, 8), np.uint32)
+        self.fluid_counts = np.zeros(clusters, np.uint32)
+        self.ghost_counts = np.zeros(clusters, np.uint32)
+        self.points = np.empty((ghost_count, 8), np.uint32)
         self.point_counts = np.zeros(ghost_count, np.uint32)
         self.grid = Grid(np.zeros(3), 1.0, (1, 1, 1))
         self.starts = np.zeros(2, np.int64)
@@ -43,6 +52,7 @@ class NeighbourLists:
         self._order = np.zeros(fluid_count, np.int64)
         self._ghost_cells = np.zeros(ghost_count, np.int64)
         self._ghost_order = np.zeros(ghost_count, np.int64)
+        self._ghost_starts = np.zeros(2, np.int64)
 
     @property
     def radius(self) -> float:
@@ -52,9 +62,11 @@ class NeighbourLists:
     def sort(self, rows: Array) -> NDArray[np.int64]:
         """Make the grid around the fluid ``rows`` (n, width) and return the order in which the rows must be put."""
         position = rows[: self.fluid_count, : self.dim]
-        self.grid = grid_around(position.min(axis=0), position.max(axis=0), self.radius)
+        lower, upper = position.min(axis=0), position.max(axis=0)
+        self.grid = grid_around(lower, upper, 0.5 * self.radius, 1.1 * self.radius)  # with all ghosts that matter
         if self.starts.shape[0] != self.grid.count + 1:
             self.starts = np.zeros(self.grid.count + 1, np.int64)
+            self._ghost_starts = np.zeros(self.grid.count + 1, np.int64)
         assign_cells(rows, self.dim, self.grid.origin, self.grid.cell, self.grid.shape, self._cells)
         counting_sort(self._cells, self.starts, self._order)
         return self._order
@@ -62,26 +74,23 @@ class NeighbourLists:
     def build(self, rows: Array, evaluation_points: Array) -> None:
         """Build the lists for ``rows`` (n + g, width), whose fluid part is in the order that :meth:`sort` returned."""
         grid, n = self.grid, self.fluid_count
-        ghosts = rows[n:]
-        assign_cells(ghosts, self.dim, grid.origin, grid.cell, grid.shape, self._ghost_cells)
-        ghost_starts = np.zeros(grid.count + 1, np.int64)
-        counting_sort(self._ghost_cells, ghost_starts, self._ghost_order)
-        stencil = _stencil(grid, self.dim)
+        assign_cells(rows[n:], self.dim, grid.origin, grid.cell, grid.shape, self._ghost_cells)
+        counting_sort(self._ghost_cells, self._ghost_starts, self._ghost_order)
         while True:
             longest = _list_particles(
-                rows, n, self.dim, self.radius, grid.origin, grid.cell, grid.shape, stencil,
-                self.starts, ghost_starts, self._ghost_order, self.fluid, self.fluid_counts, self.ghost_counts,
+                rows, n, self.cluster, self.dim, self.radius, grid.origin, grid.cell, grid.shape,
+                self.starts, self._ghost_starts, self._ghost_order, self.fluid, self.fluid_counts, self.ghost_counts,
             )  # fmt: skip
             if longest <= self.fluid.shape[1]:
                 break
-            self.fluid = np.empty((n, _capacity(longest)), np.uint32)
+            self.fluid = np.empty((len(self.fluid), _capacity(longest)), np.uint32)
         self.points = self._around(evaluation_points, rows, self.points, self.point_counts)
         self.rebuilds += 1
 
     def around(self, points: Array, rows: Array) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
         """Return lists (k, capacity) of the fluid near any ``points`` (k, dim) and their lengths (k,)."""
         counts = np.zeros(len(points), np.uint32)
-        return self._around(points, rows, np.empty((len(points), 0), np.uint32), counts), counts
+        return self._around(points, rows, np.empty((len(points), 8), np.uint32), counts), counts
 
     def _around(
         self, points: Array, rows: Array, lists: NDArray[np.uint32], counts: NDArray[np.uint32]
@@ -90,8 +99,7 @@ class NeighbourLists:
         grid = self.grid
         while True:
             longest = _list_points(
-                points, rows, self.dim, self.radius, grid.origin, grid.cell, grid.shape,
-                _stencil(grid, self.dim), self.starts, lists, counts,
+                points, rows, self.dim, self.radius, grid.origin, grid.cell, grid.shape, self.starts, lists, counts,
             )  # fmt: skip
             if longest <= lists.shape[1]:
                 return lists
@@ -103,105 +111,146 @@ def _capacity(longest: int) -> int:
     return -(-int(longest * 1.1 + 4) // 8) * 8
 
 
-def _stencil(grid: Grid, dim: int) -> NDArray[np.int64]:
-    """Offsets from a cell to the first cell of each neighbouring run of three cells along the last axis."""
-    _, ny, nz = grid.shape
-    planes = (0,) if dim == 2 else (-1, 0, 1)
-    return np.array([(a * ny + b) * nz - 1 for a in planes for b in (-1, 0, 1)], np.int64)
+@numba.njit(inline="always")
+def _cell_range(lower, upper, origin, cell, count):  # type: ignore[no-untyped-def]
+    """Return the first and the last of ``count`` cells that overlap an interval; the last may be below the first."""
+    first = (lower - origin) / cell
+    last = (upper - origin) / cell
+    if not (last >= 0.0 and first < count):
+        return 0, -1
+    return int(max(first, 0.0)), int(min(last, count - 1.0))
+
+
+@numba.njit(inline="always")
+def _gap(x, lower, upper):  # type: ignore[no-untyped-def]
+    """Return the distance from ``x`` to an interval."""
+    return max(max(lower - x, x - upper), 0.0)
+
+
+@numba.njit(error_model="numpy")
+def _near_any(rows, j, first, last, dim, limit):  # type: ignore[no-untyped-def]
+    """Whether row ``j`` lies within the search radius of any of the rows ``first`` .. ``last``."""
+    for i in range(first, last):
+        d2 = 0.0
+        for k in range(dim):
+            d2 += (rows[j, k] - rows[i, k]) ** 2
+        if d2 < limit:
+            return True
+    return False
+
+
+@numba.njit(error_model="numpy")
+def _append(rows, first, last, dim, radius, offset, order, begin, end, box, wide, found, members):  # type: ignore[no-untyped-def]
+    """Append to ``members`` what is near ``rows[first:last]``, in the bounding box ``box`` (6,); return the length.
+
+    Candidates are the rows ``offset + order[k]``, or ``k`` itself where ``order`` is empty, for k in begin .. end. The
+    length counts on where the room ends.
+    """
+    limit = radius * radius
+    room = members.shape[0] - 1
+    alone = last - first == 1
+    for k in range(begin, end):
+        j = offset + order[k] if order.shape[0] else k
+        d2 = _gap(rows[j, 0], box[0], box[1]) ** 2 + _gap(rows[j, 1], box[2], box[3]) ** 2
+        if dim == 3:
+            d2 += _gap(rows[j, 2], box[4], box[5]) ** 2
+        near = d2 < limit
+        if wide:
+            near = near and _near_any(rows, j, first, last, dim, limit)
+        members[min(found, room)] = j  # stays only if it is near: no branch to be mispredicted
+        found += 1 if near and not (alone and j == first) else 0
+    return found
 
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
 def _list_particles(  # type: ignore[no-untyped-def]
-    rows, n, dim, radius, origin, cell, shape, stencil, starts, ghost_starts, ghost_order, lists, counts, ghost_counts
-):
-    """List the neighbours of each fluid particle; returns the longest list, which may exceed the capacity."""
-    capacity = lists.shape[1]
-    limit = radius * radius
+    rows, n, cluster, dim, radius, origin, cell, shape, starts, ghost_starts, ghost_order,
+    lists, counts, ghost_counts,
+):  # fmt: skip
+    """List the neighbours of each cluster; returns the longest list, which may exceed the capacity."""
+    reach = radius * (1.0 + 1e-9)
+    fluid_order = ghost_order[:0]
     longest = 0
-    for i in numba.prange(n):
-        x = rows[i, 0]
-        y = rows[i, 1]
-        z = rows[i, dim - 1]
+    for c in numba.prange(counts.shape[0]):
+        first = c * cluster
+        last = min(first + cluster, n)
+        x0 = x1 = rows[first, 0]
+        y0 = y1 = rows[first, 1]
+        z0 = z1 = rows[first, dim - 1]
+        for i in range(first + 1, last):
+            x0 = min(x0, rows[i, 0])
+            x1 = max(x1, rows[i, 0])
+            y0 = min(y0, rows[i, 1])
+            y1 = max(y1, rows[i, 1])
+            z0 = min(z0, rows[i, dim - 1])
+            z1 = max(z1, rows[i, dim - 1])
+        box = (x0, x1, y0, y1, z0, z1)
+        wide = max(max(x1 - x0, y1 - y0), z1 - z0) > 1.5 * radius
         if dim == 2:
-            c = int((x - origin[1]) / cell) * shape[2] + int((y - origin[2]) / cell)
+            a0, a1 = 0, 0
+            b0, b1 = _cell_range(x0 - reach, x1 + reach, origin[1], cell, shape[1])
         else:
-            c = (int((x - origin[0]) / cell) * shape[1] + int((y - origin[1]) / cell)) * shape[2]
-            c += int((z - origin[2]) / cell)
+            a0, a1 = _cell_range(x0 - reach, x1 + reach, origin[0], cell, shape[0])
+            b0, b1 = _cell_range(y0 - reach, y1 + reach, origin[1], cell, shape[1])
+        c0, c1 = _cell_range(z0 - reach, z1 + reach, origin[2], cell, shape[2])
         found = 0
-        for s in range(stencil.shape[0]):
-            first = c + stencil[s]
-            for j in range(starts[first], starts[first + 3]):
-                dx = rows[j, 0] - x
-                dy = rows[j, 1] - y
-                d2 = dx * dx + dy * dy
-                if dim == 3:
-                    dz = rows[j, 2] - z
-                    d2 += dz * dz
-                if d2 < limit and j != i:
-                    if found < capacity:
-                        lists[i, found] = j
-                    found += 1
-        counts[i] = found
-        for s in range(stencil.shape[0]):
-            first = c + stencil[s]
-            for k in range(ghost_starts[first], ghost_starts[first + 3]):
-                j = n + ghost_order[k]
-                dx = rows[j, 0] - x
-                dy = rows[j, 1] - y
-                d2 = dx * dx + dy * dy
-                if dim == 3:
-                    dz = rows[j, 2] - z
-                    d2 += dz * dz
-                if d2 < limit:
-                    if found < capacity:
-                        lists[i, found] = j
-                    found += 1
-        ghost_counts[i] = found - counts[i]
+        for kind in range(2):
+            for a in range(a0, a1 + 1):
+                for b in range(b0, b1 + 1):
+                    row = row_number(shape, a, b)
+                    left = cell_number(shape, row, c0)
+                    right = cell_number(shape, row, c1)
+                    if kind == 0:
+                        found = _append(
+                            rows, first, last, dim, radius, 0, fluid_order,
+                            starts[min(left, right)], starts[max(left, right) + 1], box, wide, found, lists[c],
+                        )  # fmt: skip
+                    else:
+                        found = _append(
+                            rows, first, last, dim, radius, n, ghost_order,
+                            ghost_starts[min(left, right)], ghost_starts[max(left, right) + 1], box, wide,
+                            found, lists[c],
+                        )  # fmt: skip
+            if kind == 0:
+                counts[c] = found
+        ghost_counts[c] = found - counts[c]
         longest = max(longest, found)
     return longest
 
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
-def _list_points(  # type: ignore[no-untyped-def]
-    points, rows, dim, radius, origin, cell, shape, stencil, starts, lists, counts
-):
+def _list_points(points, rows, dim, radius, origin, cell, shape, starts, lists, counts):  # type: ignore[no-untyped-def]
     """List the fluid neighbours of each point; returns the longest list, which may exceed the capacity."""
-    capacity = lists.shape[1]
+    reach = radius * (1.0 + 1e-9)
     limit = radius * radius
+    room = lists.shape[1] - 1
     longest = 0
     for i in numba.prange(points.shape[0]):
-        counts[i] = 0
         x = points[i, 0]
         y = points[i, 1]
         z = points[i, dim - 1]
-        c = 0
-        inside = True
-        for k in range(dim):
-            axis = 3 - dim + k
-            offset = (points[i, k] - origin[axis]) / cell
-            if not (offset >= 0.0 and offset < shape[axis]):
-                inside = False
-                break
-            index = int(offset)
-            if index == 0 or index == shape[axis] - 1:  # in the outer ring: search from the nearest inner cell
-                index = min(max(index, 1), shape[axis] - 2)
-            c = c * shape[axis] + index
-        if not inside:
-            continue
+        if dim == 2:
+            a0, a1 = 0, 0
+            b0, b1 = _cell_range(x - reach, x + reach, origin[1], cell, shape[1])
+        else:
+            a0, a1 = _cell_range(x - reach, x + reach, origin[0], cell, shape[0])
+            b0, b1 = _cell_range(y - reach, y + reach, origin[1], cell, shape[1])
+        c0, c1 = _cell_range(z - reach, z + reach, origin[2], cell, shape[2])
         found = 0
-        for s in range(stencil.shape[0]):
-            first = c + stencil[s]
-            for j in range(starts[first], starts[first + 3]):
-                dx = rows[j, 0] - x
-                dy = rows[j, 1] - y
-                d2 = dx * dx + dy * dy
-                if dim == 3:
-                    dz = rows[j, 2] - z
-                    d2 += dz * dz
-                if d2 < limit:
-                    if found < capacity:
-                        lists[i, found] = j
-                    found += 1
+        for a in range(a0, a1 + 1):
+            for b in range(b0, b1 + 1):
+                row = row_number(shape, a, b)
+                left = cell_number(shape, row, c0)
+                right = cell_number(shape, row, c1)
+                for j in range(starts[min(left, right)], starts[max(left, right) + 1] if c1 >= c0 else 0):
+                    dx = rows[j, 0] - x
+                    dy = rows[j, 1] - y
+                    d2 = dx * dx + dy * dy
+                    if dim == 3:
+                        dz = rows[j, 2] - z
+                        d2 += dz * dz
+                    lists[i, min(found, room)] = j  # stays only if it is near: no branch to be mispredicted
+                    found += 1 if d2 < limit else 0
         counts[i] = found
         longest = max(longest, found)
     return longest

@@ -23,6 +23,7 @@ __all__ = ["wall_reaction"]
 # parts bound by specialise()
 DIM = 2
 SUPPORT = 3.0  # R/h
+CLUSTER = 1  # particles that share a list
 
 
 def GRADIENT(q: Any) -> Any:  # noqa: N802
@@ -55,8 +56,9 @@ def wall_reaction(  # type: ignore[no-untyped-def]
     for chunk in numba.prange(chunks):
         partial[chunk] = 0.0
         for i in range(chunk * fluid_count // chunks, (chunk + 1) * fluid_count // chunks):
-            for k in range(fluid_counts[i], fluid_counts[i] + ghost_counts[i]):
-                j = lists[i, k]
+            c = i // CLUSTER
+            for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
+                j = lists[c, k]
                 dx = rows[j, 0] - rows[i, 0]
                 dy = rows[j, 1] - rows[i, 1]
                 dz = 0.0

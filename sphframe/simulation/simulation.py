@@ -34,6 +34,9 @@ Array = NDArray[np.float64]
 SKIN = 0.1
 """skin of the neighbour lists over the kernel support"""
 
+CLUSTER = 8
+"""particles that share a neighbour list"""
+
 
 class Simulation:
     """A case in motion.
@@ -235,7 +238,7 @@ class Simulation:
 
     def _new_lists(self) -> NeighbourLists:
         return NeighbourLists(
-            self.case.dimension, self.fluid_count, self.ghost_count, self.support, SKIN * self.support
+            self.case.dimension, self.fluid_count, self.ghost_count, self.support, SKIN * self.support, CLUSTER
         )
 
     @property

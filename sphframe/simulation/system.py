@@ -88,7 +88,7 @@ class FluidSystem(System):
         self._partial_loads = np.zeros((64, walls, 3))
         self._driving_force = np.zeros(dim)
         self._driving_force[-1] = -parameters.reference_density * parameters.gravity
-        parts = {"DIM": dim, "SUPPORT": kernel.support}
+        parts = {"DIM": dim, "SUPPORT": kernel.support, "CLUSTER": lists.cluster}
         self._pressure = specialise(
             update_pressure, {"DIM": dim, "PRESSURE": compile_part(equation_of_state.pressure_function())}
         )
@@ -241,8 +241,8 @@ class FluidSystem(System):
         lists, boundary = self.lists, self.boundary
         return int(
             put_back(
-                self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, self.parameters.dim,
-                spacing, boundary.mirror, boundary.velocity,
+                self.rows, self.fluid_count, lists.fluid, lists.cluster, lists.fluid_counts, lists.ghost_counts,
+                self.parameters.dim, spacing, boundary.mirror, boundary.velocity,
             )
         )  # fmt: skip
 

@@ -26,5 +26,5 @@ def cluster() -> Iterator[str]:
     """The address of a scheduler with one worker, in a thread of this process: quick to start."""
     from distributed import LocalCluster
 
-    with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as made:
+    with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address="127.0.0.1:0") as made:
         yield made.scheduler_address
