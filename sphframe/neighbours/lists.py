@@ -23,8 +23,8 @@ class NeighbourLists:
 
     Attributes
     ----------
-    cluster: number of particles that share a list; with 1 the lists hold exactly the neighbours of each particle, with
-        more also the members of the cluster themselves.
+    cluster: number of particles that share a list; the list of a single particle holds exactly its neighbours, that of
+        several also the members of the cluster themselves.
     fluid: (clusters, capacity) uint32; row c holds ``fluid_counts[c]`` fluid neighbours, then ``ghost_counts[c]``
         ghosts, as indices of rows.
     points: (g, capacity) uint32 fluid neighbours of each evaluation point, ``point_counts`` (g,) of them.

@@ -16,24 +16,27 @@ from sphframe.particles import Columns
     ghosts=st.integers(0, 60),
     scale=st.sampled_from([1e-6, 1.0, 1e3]),
     stretch=st.floats(0.05, 20.0),
+    cluster=st.sampled_from([1, 2, 4, 7]),
 )
-def test_lists_hold_exactly_the_pairs_within_the_radius(dim, seed, fluid, ghosts, scale, stretch):
+def test_lists_hold_exactly_the_pairs_within_the_radius(dim, seed, fluid, ghosts, scale, stretch, cluster):
     random = np.random.default_rng(seed)
     columns = Columns(dim)
     rows = columns.empty(fluid + ghosts)
     rows[:, columns.position] = random.uniform(-1.0, 1.0, (fluid + ghosts, dim)) * [stretch, *[1.0] * (dim - 1)] * scale
     points = random.uniform(-1.5, 1.5, (ghosts, dim)) * scale
-    lists = NeighbourLists(dim, fluid, ghosts, support=0.4 * scale, skin=0.05 * scale)
+    lists = NeighbourLists(dim, fluid, ghosts, support=0.4 * scale, skin=0.05 * scale, cluster=cluster)
     order = lists.sort(rows)
     assert sorted(order) == list(range(fluid))
     rows[:fluid] = rows[:fluid][order]
     lists.build(rows, points)
     position = rows[:, columns.position]
-    for i in range(fluid):
-        near = np.linalg.norm(position - position[i], axis=1) < lists.radius
-        near[i] = False
-        first, second = int(lists.fluid_counts[i]), int(lists.ghost_counts[i])
-        found = lists.fluid[i, : first + second].astype(int)
+    for c in range(-(-fluid // cluster)):
+        members = position[c * cluster : min((c + 1) * cluster, fluid)]
+        near = (np.linalg.norm(position[:, None] - members, axis=2) < lists.radius).any(axis=1)
+        if len(members) == 1:
+            near[c * cluster] = False
+        first, second = int(lists.fluid_counts[c]), int(lists.ghost_counts[c])
+        found = lists.fluid[c, : first + second].astype(int)
         assert sorted(found[:first]) == list(np.flatnonzero(near[:fluid]))
         assert sorted(found[first:]) == list(fluid + np.flatnonzero(near[fluid:]))
     for k in range(ghosts):
