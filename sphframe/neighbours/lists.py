@@ -1,7 +1,7 @@
 """Neighbours: lists of all particles within the search radius, good until something has crossed half the skin.
 
 A list serves a cluster of consecutive particles, which touch each other since particles are kept in spatial order: it
-holds whatever is within the search radius of any of them, first fluid particles and then ghosts. A pair loop copies a
+holds whatever is within the search radius of the box around them, first fluid particles and then ghosts. A pair loop copies a
 cluster's neighbourhood once and then reads it from consecutive memory for each member: that costs less than the pairs
 too many, which lie beyond the kernel support and get no weight. The search radius is the kernel support plus the skin,
 so the lists stay complete while no two particles have approached each other by more than the skin.
@@ -81,7 +81,7 @@ class NeighbourLists:
                 rows, n, self.cluster, self.dim, self.radius, grid.origin, grid.cell, grid.shape,
                 self.starts, self._ghost_starts, self._ghost_order, self.fluid, self.fluid_counts, self.ghost_counts,
             )  # fmt: skip
-            if longest <= self.fluid.shape[1]:
+            if longest < self.fluid.shape[1]:
                 break
             self.fluid = np.empty((len(self.fluid), _capacity(longest)), np.uint32)
         self.points = self._around(evaluation_points, rows, self.points, self.point_counts)
@@ -101,7 +101,7 @@ class NeighbourLists:
             longest = _list_points(
                 points, rows, self.dim, self.radius, grid.origin, grid.cell, grid.shape, self.starts, lists, counts,
             )  # fmt: skip
-            if longest <= lists.shape[1]:
+            if longest < lists.shape[1]:
                 return lists
             lists = np.empty((len(points), _capacity(longest)), np.uint32)
 
@@ -144,7 +144,7 @@ def _append(rows, first, last, dim, radius, offset, order, begin, end, box, wide
     """Append to ``members`` what is near ``rows[first:last]``, in the bounding box ``box`` (6,); return the length.
 
     Candidates are the rows ``offset + order[k]``, or ``k`` itself where ``order`` is empty, for k in begin .. end. The
-    length counts on where the room ends.
+    length counts on where the room ends; the last place is scratch.
     """
     limit = radius * radius
     room = members.shape[0] - 1
@@ -167,7 +167,7 @@ def _list_particles(  # type: ignore[no-untyped-def]
     rows, n, cluster, dim, radius, origin, cell, shape, starts, ghost_starts, ghost_order,
     lists, counts, ghost_counts,
 ):  # fmt: skip
-    """List the neighbours of each cluster; returns the longest list, which may exceed the capacity."""
+    """List the neighbours of each cluster; returns the longest list, which must stay below the capacity."""
     reach = radius * (1.0 + 1e-9)
     fluid_order = ghost_order[:0]
     longest = 0
@@ -220,7 +220,7 @@ def _list_particles(  # type: ignore[no-untyped-def]
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
 def _list_points(points, rows, dim, radius, origin, cell, shape, starts, lists, counts):  # type: ignore[no-untyped-def]
-    """List the fluid neighbours of each point; returns the longest list, which may exceed the capacity."""
+    """List the fluid neighbours of each point; returns the longest list, which must stay below the capacity."""
     reach = radius * (1.0 + 1e-9)
     limit = radius * radius
     room = lists.shape[1] - 1
