@@ -14,7 +14,7 @@ from sphframe.interfaces.traits import DRY, OK, Status
 from sphframe.registry import create
 from sphframe.specialise import compile_part
 from sphframe.testing.evaluation import Evaluate, Outcome, evaluator, extrapolates, plain_evaluator, title
-from sphframe.testing.neighbourhoods import REGULAR, SPARSE, Cloud, build, condition
+from sphframe.testing.neighbourhoods import REGULAR, SPARSE, Cloud, build, condition, magnification
 from sphframe.testing.proof import BrokenPromiseError, prove
 
 Array = NDArray[np.float64]
@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 EPSILON = float(np.finfo(np.float64).eps)
 LARGEST_SUM = 1000.0
 """largest sum of |weights| that a method may answer with: beyond, noise of a thousandth swamps the field"""
+WELL_PLACED = 2.0
+"""sum of |weights| of a quadratic fit up to which a neighbourhood leaves no reason to refuse an answer"""
 _COARSEST = 1e-4
 _CLEAR = 1e-3  # of the cut-off: beyond, round-off in r is magnified by methods whose weights vanish there
 
@@ -247,7 +249,8 @@ def check_fewest_points(method: BoundaryInterpolator, dim: int) -> None:
 
     def refused(cloud: Cloud) -> str | None:
         outcome = run(cloud)
-        if outcome.status != OK and len(cloud) >= 3 * fewest and condition(cloud, 2) < 1e5:
+        well_placed = condition(cloud, 2) < 1e5 and magnification(cloud, 2) < WELL_PLACED
+        if outcome.status != OK and len(cloud) >= 3 * fewest and well_placed:
             return f"the status is {_name(outcome)} with {len(cloud)} well-placed neighbours"
         return None
 

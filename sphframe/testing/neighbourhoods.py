@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["ALL", "FAMILIES", "REGULAR", "SPARSE", "Cloud", "build", "catalogue", "condition"]
+__all__ = ["ALL", "FAMILIES", "REGULAR", "SPARSE", "Cloud", "build", "catalogue", "condition", "magnification"]
 
 Array = NDArray[np.float64]
 Recipe = Callable[[np.random.Generator, int, float], tuple[Array, Array]]
@@ -297,17 +297,32 @@ def condition(cloud: Cloud, degree: int) -> float:
     """
     if degree == 0:
         return 1.0
-    x = cloud.offsets / cloud.support
-    columns = [*x.T, np.ones(len(x))]
-    if degree == 2:
-        columns += [x[:, a] * x[:, b] for a in range(cloud.dim) for b in range(a + 1)]
-    basis = np.column_stack(columns)
-    weights = _gaussian(np.sum(x**2, axis=1)) * cloud.volumes / cloud.volumes.max()
+    x, basis, weights = _polynomials(cloud, degree)
     worst = max(_squared(basis), _squared(basis * np.sqrt(weights)[:, None]))
     about = x - x[np.argmin(cloud.distances)]
     squares = np.sum(about**2, axis=1)
     away = squares > 0.0
     return max(worst, _squared(about[away] * np.sqrt(_gaussian(squares[away]) / squares[away])[:, None]))
+
+
+def magnification(cloud: Cloud, degree: int) -> float:
+    """Return sum |w_j| of a least-squares fit of a polynomial to the neighbours, with Gaussian weights.
+
+    It is what extrapolation costs: 1 in the middle of a symmetric neighbourhood, large far outside a neighbourhood.
+    """
+    _, basis, weights = _polynomials(cloud, degree)
+    roots = np.sqrt(weights)
+    constant = cloud.dim  # the column of the constant, whose coefficient is the fitted value at the point
+    return float(np.abs(np.linalg.pinv(basis * roots[:, None])[constant] * roots).sum())
+
+
+def _polynomials(cloud: Cloud, degree: int) -> tuple[Array, Array, Array]:
+    """Return offsets over the support (n, dim), monomials (n, terms) and Gaussian weights (n,) of the neighbours."""
+    x = cloud.offsets / cloud.support
+    columns = [*x.T, np.ones(len(x))]
+    if degree == 2:
+        columns += [x[:, a] * x[:, b] for a in range(cloud.dim) for b in range(a + 1)]
+    return x, np.column_stack(columns), _gaussian(np.sum(x**2, axis=1)) * cloud.volumes / cloud.volumes.max()
 
 
 def _gaussian(squares: Array) -> Array:

@@ -13,7 +13,7 @@ from sphframe import OK, Status, available, create
 from sphframe.cli.verify import verify as print_verification
 from sphframe.errors import UnknownComponentError
 from sphframe.testing import FAMILIES, Cloud, catalogue, checks_of, clouds, evaluate, parametrize_with_checks, verify
-from sphframe.testing.neighbourhoods import build, condition
+from sphframe.testing.neighbourhoods import build, condition, magnification
 from sphframe.testing.proof import smallest
 
 METHODS = {
@@ -188,3 +188,12 @@ def test_importing_the_suite_compiles_nothing():
         " and f.__module__.startswith('sphframe')]; assert not compiled, compiled"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_magnification_is_what_extrapolation_costs():
+    square = np.array([[x, y] for x in (-1.0, 0.0, 1.0) for y in (-1.0, 0.0, 1.0)])
+    inside = Cloud(square, np.ones(9), 3.0)
+    assert magnification(inside, 1) == pytest.approx(1.0)
+    two = Cloud([[1.0, -0.5], [1.0, 0.5], [2.0, -0.5], [2.0, 0.5]], np.ones(4), 30.0)  # weights nearly equal
+    assert magnification(two, 1) == pytest.approx(3.0, rel=0.05)  # 2 f(1) - f(2)
+    assert magnification(two, 1) < magnification(Cloud(two.offsets + np.array([1.0, 0.0]), np.ones(4), 30.0), 1)
