@@ -3,8 +3,8 @@
 A list serves a cluster of consecutive particles, which touch each other since particles are kept in spatial order: it
 holds whatever is within the search radius of the box around them, first fluid particles and then ghosts. A pair loop
 copies a cluster's neighbourhood once and then reads it from consecutive memory for each member: that costs less than
-the pairs too many, which lie beyond the kernel support and get no weight. The search radius is the kernel support plus the skin,
-so the lists stay complete while no two particles have approached each other by more than the skin.
+the pairs too many, which lie beyond the kernel support and get no weight. The search radius is the kernel support plus
+the skin, so the lists stay complete while no two particles have approached each other by more than the skin.
 """
 
 import numba
