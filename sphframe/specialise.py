@@ -42,9 +42,7 @@ def specialise(template: Callable[..., Any], parts: dict[str, Any], *, parallel:
     key = f"{fingerprint(function)}{'p' if parallel else 's'}"
     if key not in _loops:
         function.__qualname__ = f"{template.__qualname__}_{key}"
-        _loops[key] = numba.njit(parallel=parallel, cache=True, error_model="numpy", fastmath={"contract", "nsz"})(
-            function
-        )
+        _loops[key] = numba.njit(parallel=parallel, cache=True, error_model="numpy")(function)
     return _loops[key]
 
 
@@ -52,7 +50,7 @@ def compile_part(function: Callable[..., Any]) -> Any:
     """Compile one part for use inside loops; a function with the same fingerprint is compiled once per process."""
     if isinstance(function, Dispatcher) or _jit_is_disabled():
         return function
-    return _compiled_once(function, {"error_model": "numpy", "fastmath": {"contract", "nsz"}})
+    return _compiled_once(function, {"error_model": "numpy"})
 
 
 def _compiled_once(function: Any, options: dict[str, Any]) -> Any:
@@ -70,7 +68,9 @@ def _compiled_once(function: Any, options: dict[str, Any]) -> Any:
 
 
 def _own(item: Any) -> Any:
-    """Return what a closure holds; a function that was compiled inside another one under a name of its own."""
+    """Return what a closure holds: functions compiled, those made inside another function under names of their own."""
+    if isinstance(item, types.FunctionType):
+        return compile_part(item)
     if isinstance(item, Dispatcher) and "<locals>" in item.py_func.__qualname__:
         return _compiled_once(item, item.targetoptions)
     return item

@@ -29,38 +29,40 @@ def put_back(  # type: ignore[no-untyped-def]
     velocities, m/s, of the walls at the ghosts.
     """
     contacts = 0
-    for i in numba.prange(fluid_count):
-        nearest = -1
-        closest = spacing * spacing
-        c = i // cluster
-        for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
-            j = lists[c, k]
-            distance2 = 0.0
-            span2 = 0.0
-            for d in range(dim):
-                distance2 += (rows[j, d] - rows[i, d]) ** 2
-                span2 += (rows[j, d] - mirror[j - fluid_count, d]) ** 2
-            if distance2 < closest and span2 < 1.5 * spacing * spacing:  # first layer of a face: 2 d = 1 spacing
-                closest = distance2
-                nearest = j - fluid_count
-        if nearest >= 0:
-            ghost = fluid_count + nearest
-            span = 0.0
-            depth = 0.0
-            for d in range(dim):
-                across = rows[ghost, d] - mirror[nearest, d]
-                span += across * across
-                depth += (rows[i, d] - 0.5 * (rows[ghost, d] + mirror[nearest, d])) * across
-            if depth > 0.0:
-                span = math.sqrt(span)
-                depth /= span
-                into = 0.0
+    for c in numba.prange(fluid_counts.shape[0]):
+        if ghost_counts[c] == 0:
+            continue
+        for i in range(c * cluster, min((c + 1) * cluster, fluid_count)):
+            nearest = -1
+            closest = spacing * spacing
+            for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
+                j = lists[c, k]
+                distance2 = 0.0
+                span2 = 0.0
                 for d in range(dim):
-                    normal = (rows[ghost, d] - mirror[nearest, d]) / span
-                    into += (rows[i, dim + d] - wall_velocity[nearest, d]) * normal
+                    distance2 += (rows[j, d] - rows[i, d]) ** 2
+                    span2 += (rows[j, d] - mirror[j - fluid_count, d]) ** 2
+                if distance2 < closest and span2 < 1.5 * spacing * spacing:  # first layer of a face: 2 d = 1 spacing
+                    closest = distance2
+                    nearest = j - fluid_count
+            if nearest >= 0:
+                ghost = fluid_count + nearest
+                span = 0.0
+                depth = 0.0
                 for d in range(dim):
-                    normal = (rows[ghost, d] - mirror[nearest, d]) / span
-                    rows[i, d] -= depth * normal
-                    rows[i, dim + d] -= max(into, 0.0) * normal
-                contacts += 1
+                    across = rows[ghost, d] - mirror[nearest, d]
+                    span += across * across
+                    depth += (rows[i, d] - 0.5 * (rows[ghost, d] + mirror[nearest, d])) * across
+                if depth > 0.0:
+                    span = math.sqrt(span)
+                    depth /= span
+                    into = 0.0
+                    for d in range(dim):
+                        normal = (rows[ghost, d] - mirror[nearest, d]) / span
+                        into += (rows[i, dim + d] - wall_velocity[nearest, d]) * normal
+                    for d in range(dim):
+                        normal = (rows[ghost, d] - mirror[nearest, d]) / span
+                        rows[i, d] -= depth * normal
+                        rows[i, dim + d] -= max(into, 0.0) * normal
+                    contacts += 1
     return contacts

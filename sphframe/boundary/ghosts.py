@@ -33,6 +33,7 @@ from typing import Any
 
 import numba
 
+from sphframe.interfaces.scratch import local_array
 from sphframe.interfaces.traits import DRY, OK
 
 __all__ = ["fill_ghosts"]
@@ -84,7 +85,9 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
         weights = column_scratch[chunk, 3]
         members = member_scratch[chunk]
         lift = lift_scratch[chunk]
-        for g in range(chunk * ghosts // chunks, (chunk + 1) * ghosts // chunks):
+        mean_offset = local_array(DIM)
+        mean_velocity = local_array(DIM)
+        for g in range(chunk, ghosts, chunks):  # the wet ghosts are neighbours: dealt out in turn, threads share them
             n = 0
             for k in range(counts[g]):
                 j = lists[g, k]
@@ -94,42 +97,57 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                 if DIM == 3:
                     dz = rows[j, 2] - points[g, 2]
                     r2 += dz * dz
-                if r2 < limit:
-                    offsets[n, 0] = dx
-                    offsets[n, 1] = dy
-                    if DIM == 3:
-                        offsets[n, 2] = dz
-                    distances[n] = math.sqrt(r2)
-                    values[n] = kernel_scale * VALUE(distances[n] * per_h)
-                    volumes[n] = rows[j, 2 * DIM + 2]
-                    members[n] = j
-                    n += 1
+                offsets[n, 0] = dx
+                offsets[n, 1] = dy
+                if DIM == 3:
+                    offsets[n, 2] = dz
+                distances[n] = r2
+                volumes[n] = rows[j, 2 * DIM + 2]
+                members[n] = j
+                n += 1 if r2 < limit else 0  # stays only if it is near: no branch to be mispredicted
+            for k in range(n):
+                distances[k] = math.sqrt(distances[k])
+                values[k] = kernel_scale * VALUE(distances[k] * per_h)
 
-            pressure = 0.0
             status = DRY
+            extrapolated = 0.0
             if n > 0:
-                for k in range(DIM):
-                    lift[k] = lifts[g, k] if EXTRAPOLATED else 0.0
+                for d in range(DIM):
+                    lift[d] = lifts[g, d] if EXTRAPOLATED else 0.0
                 status = WEIGHTS(
                     offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n]
                 )  # fmt: skip
                 if status != OK:
                     FALLBACK(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
-                for k in range(n):
-                    pressure += weights[k] * rows[members[k], 2 * DIM + 1]
-                if EXTRAPOLATED and status == OK:
-                    for k in range(DIM):
-                        lift[k] = 0.0
-                    WEIGHTS(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
-                elif BALANCED:
+                elif EXTRAPOLATED:
                     for k in range(n):
-                        for d in range(DIM):
-                            pressure += weights[k] * driving_forces[g, d] * (lifts[g, d] - offsets[k, d])
-                else:
+                        extrapolated += weights[k] * rows[members[k], 2 * DIM + 1]
                     for d in range(DIM):
-                        pressure += driving_forces[g, d] * lifts[g, d]
-            pressure = max(pressure, 0.0)
+                        lift[d] = 0.0
+                    WEIGHTS(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
             statuses[g] = status
+
+            total = 0.0
+            pressure = 0.0
+            for d in range(DIM):
+                mean_offset[d] = 0.0
+                mean_velocity[d] = 0.0
+            for k in range(n):
+                j = members[k]
+                total += weights[k]
+                pressure += weights[k] * rows[j, 2 * DIM + 1]
+                for d in range(DIM):
+                    mean_offset[d] += weights[k] * offsets[k, d]
+                    mean_velocity[d] += weights[k] * rows[j, DIM + d]
+            if EXTRAPOLATED and status == OK:
+                pressure = extrapolated
+            elif BALANCED:
+                for d in range(DIM):
+                    pressure += driving_forces[g, d] * (total * lifts[g, d] - mean_offset[d])
+            elif n > 0:
+                for d in range(DIM):
+                    pressure += driving_forces[g, d] * lifts[g, d]
+            pressure = max(pressure, 0.0)
 
             slope = 1.0  # s above; the lift is 2 d n, and d_j = d - (x_j - x_M).n
             if BALANCED and n > 0:
@@ -137,8 +155,7 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                 moment = 0.0
                 for d in range(DIM):
                     span += lifts[g, d] * lifts[g, d]
-                    for k in range(n):
-                        moment += weights[k] * offsets[k, d] * lifts[g, d]
+                    moment += mean_offset[d] * lifts[g, d]
                 if span > 0.0:
                     slope = span / max(span - 2.0 * moment, 0.5 * span)
 
@@ -146,9 +163,7 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
             for d in range(DIM):
                 rows[row, DIM + d] = wall_velocities[g, d]
             for e in range(DIM if n > 0 else 0):
-                relative = -wall_velocities[g, e]
-                for k in range(n):
-                    relative += weights[k] * rows[members[k], DIM + e]
+                relative = mean_velocity[e] - wall_velocities[g, e]
                 rows[row, DIM + e] += 0.5 * (1.0 - slope) * relative
                 for d in range(DIM):
                     rows[row, DIM + d] += 0.5 * (1.0 + slope) * reflections[g, d, e] * relative

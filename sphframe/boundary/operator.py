@@ -129,6 +129,7 @@ def compiled_kernel(kernel: Kernel, dim: int) -> CompiledKernel:
         compile_part(kernel.gradient_function()),
         kernel.support,
         kernel.normalisation(dim),
+        compile_part(kernel.gradient_of_square_function()),
     )
 
 

@@ -1,5 +1,6 @@
 """Interfaces: the smoothing kernel."""
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import Any, ClassVar, NamedTuple
@@ -33,6 +34,18 @@ class Kernel(ABC):
     def gradient_function(self) -> ScalarFunction:
         """Return the function w'(q)/q."""
 
+    def gradient_of_square_function(self) -> ScalarFunction:
+        """Return w'(q)/q as a function of s = q^2, which is what the pair loops know.
+
+        The default takes the square root of s. A kernel that needs none is faster if it says so here.
+        """
+        gradient = self.gradient_function()
+
+        def of_square(s: float) -> float:
+            return gradient(math.sqrt(s))
+
+        return of_square
+
     @abstractmethod
     def normalisation(self, dim: int) -> float:
         """Return sigma_d, such that the integral of W over the support is one, for dim 1, 2 or 3."""
@@ -41,11 +54,13 @@ class Kernel(ABC):
 class CompiledKernel(NamedTuple):
     """What an interpolation method is given of the kernel when its weights are built.
 
-    ``value`` and ``gradient`` are compiled functions of q (see :class:`Kernel`), ``support`` is R/h and
-    ``normalisation`` is sigma_d for the dimension at hand. Inside the weights function h = R / support.
+    ``value`` and ``gradient`` are compiled functions of q (see :class:`Kernel`), ``gradient_of_square`` is the latter
+    as a function of q^2, ``support`` is R/h and ``normalisation`` is sigma_d for the dimension at hand. Inside the
+    weights function h = R / support.
     """
 
     value: Any
     gradient: Any
     support: float
     normalisation: float
+    gradient_of_square: Any

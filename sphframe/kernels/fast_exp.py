@@ -3,19 +3,33 @@
 import math
 
 import numba
+import numpy as np
+from numpy.polynomial import Chebyshev, Polynomial
+
+from sphframe.interfaces.arithmetic import fma
 
 __all__ = ["fast_exp"]
 
-_AT_CENTRE = math.exp(-4.5)
-_C2, _C3, _C4, _C5, _C6, _C7, _C8, _C9, _C10 = (1.0 / math.factorial(k) for k in range(2, 11))
+
+def _root_of_exp() -> tuple[float, ...]:
+    """Coefficients of a polynomial that is exp(x/32) for -9 <= x <= 0 to 3e-16: its Chebyshev series to degree 8.
+
+    exp(a t) = I_0(a) + 2 sum_k I_k(a) T_k(t) with the modified Bessel functions I_k; here a = 9/64, t = 1 + 2x/9.
+    """
+    half = 4.5 / 64.0
+    bessel = [sum(half ** (2 * m + k) / math.factorial(m) / math.factorial(m + k) for m in range(8)) for k in range(9)]
+    series = math.exp(-2.0 * half) * np.array([bessel[0], *(2.0 * value for value in bessel[1:])])
+    return tuple(float(c) for c in Chebyshev(series, domain=[-9.0, 0.0]).convert(kind=Polynomial).coef)
 
 
-@numba.njit(error_model="numpy", fastmath={"contract", "nsz"})
+_C0, _C1, _C2, _C3, _C4, _C5, _C6, _C7, _C8 = _root_of_exp()
+
+
+@numba.njit(error_model="numpy")
 def fast_exp(x: float) -> float:
     """Return exp(x) for -9 <= x <= 0, with a relative error below 2e-14.
 
-    exp(x) = exp(-4.5) (exp y)^32 with y = (x + 4.5)/32, and exp y by its Taylor polynomial of degree 10 about zero,
-    whose remainder for |y| <= 9/64 is below 2e-17.
+    exp(x) = exp(x/32)^32, and exp(x/32) by a polynomial of degree 8.
 
     Why not ``math.exp``: without Intel's SVML, which the LLVM from PyPI lacks, Numba calls the C library once for
     every value. Measured in a compiled loop over 4 million values: 5.9 ns a value by ``math.exp``, 3.1 ns by this
@@ -26,18 +40,14 @@ def fast_exp(x: float) -> float:
     >>> abs(fast_exp(-1.0) / math.exp(-1.0) - 1.0) < 2e-14
     True
     """
-    y = (x + 4.5) * 0.03125
-    y2 = y * y
-    y4 = y2 * y2
+    x2 = x * x
+    x4 = x2 * x2
     # grouped after Estrin: fewer operations wait for each other than in Horner's scheme
-    p = (
-        ((1.0 + y) + y2 * (_C2 + _C3 * y))
-        + y4 * ((_C4 + _C5 * y) + y2 * (_C6 + _C7 * y))
-        + (y4 * y4) * (_C8 + _C9 * y + _C10 * y2)
-    )
+    low = fma(x2, fma(_C3, x, _C2), fma(_C1, x, _C0))
+    high = fma(x4, _C8, fma(x2, fma(_C7, x, _C6), fma(_C5, x, _C4)))
+    p = fma(x4, high, low)
     p = p * p
     p = p * p
     p = p * p
     p = p * p
-    p = p * p
-    return _AT_CENTRE * p
+    return p * p

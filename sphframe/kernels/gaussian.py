@@ -21,6 +21,10 @@ def _gradient(q: float) -> float:
     return -2.0 * fast_exp(-q * q)
 
 
+def _gradient_of_square(s: float) -> float:
+    return -2.0 * fast_exp(-s)
+
+
 @dataclass(frozen=True)
 class RenormalisedGaussian(Kernel):
     """The Gaussian cut off at 3h, shifted to be zero there, and normalised again (Eq. 7 of Huang et al. 2019).
@@ -54,6 +58,10 @@ class RenormalisedGaussian(Kernel):
     def gradient_function(self) -> ScalarFunction:
         """Return w'(q)/q = -2 exp(-q^2)."""
         return _gradient
+
+    def gradient_of_square_function(self) -> ScalarFunction:
+        """Return w'(q)/q = -2 exp(-s), s = q^2."""
+        return _gradient_of_square
 
     def normalisation(self, dim: int) -> float:
         """Return sigma_d for dim 1, 2 or 3."""

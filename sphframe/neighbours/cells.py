@@ -1,7 +1,9 @@
-"""Neighbours: a grid of cells, half as wide as the search radius, and the order of particles along it.
+"""Neighbours: a grid of cells and the order of particles along it.
 
 Cells are numbered along the last axis, row after row, every other row backwards: consecutive cells touch, and so do
-particles sorted by cell. The cells of one row that a box overlaps are always one range of numbers.
+particles sorted by cell. The cells of one row that a box overlaps are always one range of numbers. A row is as wide as
+the cluster of particles that is to share a neighbour list, its cells are a quarter as long: so consecutive particles
+fill a cube, and not a streak.
 """
 
 import math
@@ -11,20 +13,20 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Grid", "assign_cells", "cell_number", "counting_sort", "grid_around"]
+__all__ = ["Grid", "bounding_box", "cell_number", "grid_around", "put_in_order", "row_number", "sort_by_cell"]
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Grid:
-    """A grid of cubic cells: ``origin`` (3,) of cell (0, 0, 0), edge ``cell`` in m, ``shape`` (3,) cells per axis.
+    """A grid of cells: ``origin`` (3,) of cell (0, 0, 0), edges ``cell`` (3,) in m, ``shape`` (3,) cells per axis.
 
     In 2-D the first axis has one cell, so that x and y are the second and third axis of one source.
     """
 
     origin: Array
-    cell: float
+    cell: Array
     shape: tuple[int, int, int]
 
     @property
@@ -33,15 +35,17 @@ class Grid:
         return self.shape[0] * self.shape[1] * self.shape[2]
 
 
-def grid_around(lower: Array, upper: Array, cell: float, margin: float) -> Grid:
-    """Return the grid whose cells cover the box ``lower`` .. ``upper`` (dim,) and ``margin`` around it."""
+def grid_around(lower: Array, upper: Array, width: float, margin: float) -> Grid:
+    """Return the grid, in rows of the given ``width``, that covers the box ``lower`` .. ``upper`` (dim,) and ``margin``
+    around it."""
     dim = len(lower)
     origin = np.zeros(3)
+    cell = np.array([width, width, 0.25 * width])
     shape = [1, 1, 1]
     for k in range(dim):
         axis = 3 - dim + k
-        origin[axis] = lower[k] - margin - 0.001 * cell  # round-off must not put the lowest particle outside
-        shape[axis] = math.floor((upper[k] + margin - origin[axis]) / cell) + 1
+        origin[axis] = lower[k] - margin - 0.001 * width  # round-off must not put the lowest particle outside
+        shape[axis] = math.floor((upper[k] + margin - origin[axis]) / cell[axis]) + 1
     return Grid(origin, cell, (shape[0], shape[1], shape[2]))
 
 
@@ -58,46 +62,78 @@ def cell_number(shape, row, c):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(parallel=True, cache=True)
-def assign_cells(rows, dim, origin, cell, shape, cells):  # type: ignore[no-untyped-def]
-    """Write the cell number of each row's position to ``cells``; -1 outside the grid."""
-    for i in numba.prange(cells.shape[0]):
-        inside = True
-        a = b = c = 0
+def bounding_box(rows, count, dim, lower, upper):  # type: ignore[no-untyped-def]
+    """Write the corners (dim,) of the box around the positions of the first ``count`` rows."""
+    chunks = min(count, 64)
+    corners = np.empty((chunks, 2, 3))
+    for chunk in numba.prange(chunks):
+        begin = chunk * count // chunks
         for k in range(dim):
-            axis = 3 - dim + k
-            offset = (rows[i, k] - origin[axis]) / cell
-            if not (offset >= 0.0 and offset < shape[axis]):
-                inside = False
-                break
-            index = int(offset)
-            if axis == 0:
-                a = index
-            elif axis == 1:
-                b = index
-            else:
-                c = index
-        cells[i] = cell_number(shape, row_number(shape, a, b), c) if inside else -1
+            low = high = rows[begin, k]
+            for i in range(begin + 1, (chunk + 1) * count // chunks):
+                low = min(low, rows[i, k])
+                high = max(high, rows[i, k])
+            corners[chunk, 0, k] = low
+            corners[chunk, 1, k] = high
+    for k in range(dim):
+        lower[k] = corners[:, 0, k].min()
+        upper[k] = corners[:, 1, k].max()
 
 
-@numba.njit(cache=True)
-def counting_sort(cells, starts, order):  # type: ignore[no-untyped-def]
-    """Sort by cell, keeping the order within one: ``order[starts[c]:starts[c + 1]]`` are the members of cell c.
+@numba.njit(parallel=True, cache=True, error_model="numpy")
+def sort_by_cell(rows, dim, origin, cell, shape, cells, tallies, starts, order):  # type: ignore[no-untyped-def]
+    """Sort rows by cell, keeping the order within one: ``order[starts[c]:starts[c + 1]]`` are the members of cell c.
 
-    Members of cell -1 are left out. Returns the number of sorted members.
+    The rows are counted, and put in their places, in as many parts as ``tallies`` (parts, cells) has; the result does
+    not depend on their number. ``cells`` (n,) is scratch; rows outside the grid are left out.
     """
-    starts[:] = 0
-    for i in range(cells.shape[0]):
-        if cells[i] >= 0:
-            starts[cells[i] + 1] += 1
-    for c in range(starts.shape[0] - 1):
-        starts[c + 1] += starts[c]
-    total = starts[-1]
-    for i in range(cells.shape[0] - 1, -1, -1):  # backwards, so that starts[c + 1] counts down to the first member
-        c = cells[i]
-        if c >= 0:
-            starts[c + 1] -= 1
-            order[starts[c + 1]] = i
-    for c in range(starts.shape[0] - 1):
-        starts[c] = starts[c + 1]
-    starts[-1] = total
-    return total
+    n = cells.shape[0]
+    parts = tallies.shape[0]
+    count = tallies.shape[1]
+    for part in numba.prange(parts):
+        tally = tallies[part]
+        tally[:] = 0
+        for i in range(part * n // parts, (part + 1) * n // parts):
+            inside = True
+            a = b = c = 0
+            for k in range(dim):
+                axis = 3 - dim + k
+                offset = (rows[i, k] - origin[axis]) / cell[axis]
+                if not (offset >= 0.0 and offset < shape[axis]):
+                    inside = False
+                    break
+                index = int(offset)
+                if axis == 0:
+                    a = index
+                elif axis == 1:
+                    b = index
+                else:
+                    c = index
+            cells[i] = cell_number(shape, row_number(shape, a, b), c) if inside else -1
+            if inside:
+                tally[cells[i]] += 1
+    total = 0
+    for c in range(count):
+        starts[c] = total
+        for part in range(parts):
+            members = tallies[part, c]
+            tallies[part, c] = total
+            total += members
+    starts[count] = total
+    for part in numba.prange(parts):
+        tally = tallies[part]
+        for i in range(part * n // parts, (part + 1) * n // parts):
+            if cells[i] >= 0:
+                order[tally[cells[i]]] = i
+                tally[cells[i]] += 1
+
+
+@numba.njit(parallel=True, cache=True)
+def put_in_order(rows, order, spare):  # type: ignore[no-untyped-def]
+    """Put the first rows of ``rows`` into ``order`` (n,), by way of ``spare``, which is at least as long and wide."""
+    for i in numba.prange(order.shape[0]):
+        for k in range(rows.shape[1]):
+            spare[i, k] = rows[order[i], k]
+    for i in numba.prange(order.shape[0]):
+        for k in range(rows.shape[1]):
+            rows[i, k] = spare[i, k]

@@ -11,11 +11,14 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from sphframe.neighbours.cells import Grid, assign_cells, cell_number, counting_sort, grid_around, row_number
+from sphframe.neighbours.cells import Grid, bounding_box, cell_number, grid_around, row_number, sort_by_cell
 
 __all__ = ["NeighbourLists"]
 
 Array = NDArray[np.float64]
+
+_PARTS = 4
+"""of the rows that are sorted at the same time"""
 
 
 class NeighbourLists:
@@ -25,18 +28,27 @@ class NeighbourLists:
     ----------
     cluster: number of particles that share a list; the list of a single particle holds exactly its neighbours, that of
         several also the members of the cluster themselves.
+    width: of the rows of the grid, m: the edge of the cube that a cluster should fill.
     fluid: (clusters, capacity) uint32; row c holds ``fluid_counts[c]`` fluid neighbours, then ``ghost_counts[c]``
         ghosts, as indices of rows.
     points: (g, capacity) uint32 fluid neighbours of each evaluation point, ``point_counts`` (g,) of them.
     """
 
     def __init__(
-        self, dim: int, fluid_count: int, ghost_count: int, support: float, skin: float, cluster: int = 1
+        self,
+        dim: int,
+        fluid_count: int,
+        ghost_count: int,
+        support: float,
+        skin: float,
+        cluster: int = 1,
+        width: float | None = None,
     ) -> None:
         self.dim = dim
         self.support = support
         self.skin = skin
         self.cluster = cluster
+        self.width = 0.5 * self.radius if width is None else width
         self.fluid_count = fluid_count
         self.ghost_count = ghost_count
         clusters = -(-fluid_count // cluster)
@@ -45,7 +57,7 @@ class NeighbourLists:
         self.ghost_counts = np.zeros(clusters, np.uint32)
         self.points = np.empty((ghost_count, 8), np.uint32)
         self.point_counts = np.zeros(ghost_count, np.uint32)
-        self.grid = Grid(np.zeros(3), 1.0, (1, 1, 1))
+        self.grid = Grid(np.zeros(3), np.ones(3), (1, 1, 1))
         self.starts = np.zeros(2, np.int64)
         self.rebuilds = 0
         self._cells = np.zeros(fluid_count, np.int64)
@@ -53,6 +65,8 @@ class NeighbourLists:
         self._ghost_cells = np.zeros(ghost_count, np.int64)
         self._ghost_order = np.zeros(ghost_count, np.int64)
         self._ghost_starts = np.zeros(2, np.int64)
+        self._tallies = np.zeros((_PARTS, 1), np.int64)
+        self._lower, self._upper = np.zeros(dim), np.zeros(dim)
 
     @property
     def radius(self) -> float:
@@ -61,21 +75,23 @@ class NeighbourLists:
 
     def sort(self, rows: Array) -> NDArray[np.int64]:
         """Make the grid around the fluid ``rows`` (n, width) and return the order in which the rows must be put."""
-        position = rows[: self.fluid_count, : self.dim]
-        lower, upper = position.min(axis=0), position.max(axis=0)
-        self.grid = grid_around(lower, upper, 0.5 * self.radius, 1.1 * self.radius)  # with all ghosts that matter
-        if self.starts.shape[0] != self.grid.count + 1:
+        bounding_box(rows, self.fluid_count, self.dim, self._lower, self._upper)
+        self.grid = grid_around(self._lower, self._upper, self.width, 1.1 * self.radius)  # with all ghosts that matter
+        if self._tallies.shape[1] != self.grid.count:
+            self._tallies = np.zeros((_PARTS, self.grid.count), np.int64)
             self.starts = np.zeros(self.grid.count + 1, np.int64)
             self._ghost_starts = np.zeros(self.grid.count + 1, np.int64)
-        assign_cells(rows, self.dim, self.grid.origin, self.grid.cell, self.grid.shape, self._cells)
-        counting_sort(self._cells, self.starts, self._order)
+        self._sort(rows, self._cells, self.starts, self._order)
         return self._order
+
+    def _sort(self, rows: Array, cells: NDArray[np.int64], starts: NDArray[np.int64], order: NDArray[np.int64]) -> None:
+        grid = self.grid
+        sort_by_cell(rows, self.dim, grid.origin, grid.cell, grid.shape, cells, self._tallies, starts, order)
 
     def build(self, rows: Array, evaluation_points: Array) -> None:
         """Build the lists for ``rows`` (n + g, width), whose fluid part is in the order that :meth:`sort` returned."""
         grid, n = self.grid, self.fluid_count
-        assign_cells(rows[n:], self.dim, grid.origin, grid.cell, grid.shape, self._ghost_cells)
-        counting_sort(self._ghost_cells, self._ghost_starts, self._ghost_order)
+        self._sort(rows[n:], self._ghost_cells, self._ghost_starts, self._ghost_order)
         while True:
             longest = _list_particles(
                 rows, n, self.cluster, self.dim, self.radius, grid.origin, grid.cell, grid.shape,
@@ -188,11 +204,11 @@ def _list_particles(  # type: ignore[no-untyped-def]
         wide = max(max(x1 - x0, y1 - y0), z1 - z0) > 1.5 * radius
         if dim == 2:
             a0, a1 = 0, 0
-            b0, b1 = _cell_range(x0 - reach, x1 + reach, origin[1], cell, shape[1])
+            b0, b1 = _cell_range(x0 - reach, x1 + reach, origin[1], cell[1], shape[1])
         else:
-            a0, a1 = _cell_range(x0 - reach, x1 + reach, origin[0], cell, shape[0])
-            b0, b1 = _cell_range(y0 - reach, y1 + reach, origin[1], cell, shape[1])
-        c0, c1 = _cell_range(z0 - reach, z1 + reach, origin[2], cell, shape[2])
+            a0, a1 = _cell_range(x0 - reach, x1 + reach, origin[0], cell[0], shape[0])
+            b0, b1 = _cell_range(y0 - reach, y1 + reach, origin[1], cell[1], shape[1])
+        c0, c1 = _cell_range(z0 - reach, z1 + reach, origin[2], cell[2], shape[2])
         found = 0
         for kind in range(2):
             for a in range(a0, a1 + 1):
@@ -231,11 +247,11 @@ def _list_points(points, rows, dim, radius, origin, cell, shape, starts, lists, 
         z = points[i, dim - 1]
         if dim == 2:
             a0, a1 = 0, 0
-            b0, b1 = _cell_range(x - reach, x + reach, origin[1], cell, shape[1])
+            b0, b1 = _cell_range(x - reach, x + reach, origin[1], cell[1], shape[1])
         else:
-            a0, a1 = _cell_range(x - reach, x + reach, origin[0], cell, shape[0])
-            b0, b1 = _cell_range(y - reach, y + reach, origin[1], cell, shape[1])
-        c0, c1 = _cell_range(z - reach, z + reach, origin[2], cell, shape[2])
+            a0, a1 = _cell_range(x - reach, x + reach, origin[0], cell[0], shape[0])
+            b0, b1 = _cell_range(y - reach, y + reach, origin[1], cell[1], shape[1])
+        c0, c1 = _cell_range(z - reach, z + reach, origin[2], cell[2], shape[2])
         found = 0
         for a in range(a0, a1 + 1):
             for b in range(b0, b1 + 1):

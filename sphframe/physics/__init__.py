@@ -1,9 +1,9 @@
 """Physics: one term of the equations per file."""
 
-from sphframe.physics.density_gradient import density_gradient
+from sphframe.physics.lanes import LANES
 from sphframe.physics.pressure import update_pressure
-from sphframe.physics.rates import fluid_rates
+from sphframe.physics.rates import fluid_sums
 from sphframe.physics.sampling import sample_points
 from sphframe.physics.wall_force import wall_reaction
 
-__all__ = ["density_gradient", "fluid_rates", "sample_points", "update_pressure", "wall_reaction"]
+__all__ = ["LANES", "fluid_sums", "sample_points", "update_pressure", "wall_reaction"]

@@ -15,6 +15,8 @@ Source: X. Huang et al. (2019), doi:10.3390/w11051110, Eq. 5; S. Marrone et al. 
 
 import numba
 
+from sphframe.interfaces.arithmetic import fma
+
 __all__ = ["diffusive_flux"]
 
 
@@ -24,4 +26,4 @@ def diffusive_flux(density_difference, gradient_difference):  # type: ignore[no-
 
     grad_i W_ij is parallel to x_ji, so this scalar is all that the sum needs of psi_ij.
     """
-    return 2.0 * density_difference - gradient_difference
+    return fma(2.0, density_difference, -gradient_difference)

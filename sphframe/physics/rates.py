@@ -1,154 +1,198 @@
-"""Physics: the rates of the fluid in one loop over its neighbours; each term is explained in its own file.
+"""Physics: the sums over a particle's neighbours in one loop; each term is explained in its own file.
 
-CONTINUITY and MOMENTUM say which of the two equations a specialised loop evaluates: one of them, or both at once.
+SLOPE, CONTINUITY and MOMENTUM say which of them a specialised loop evaluates: the density gradient, the density rate
+(which needs the gradient), the acceleration. What does not depend on the other is done at once where it can be, since
+half of the cost is the pair's distance and kernel.
 """
 
-import math
 from typing import Any
 
 import numba
-import numpy as np
 
-from sphframe.physics.chunks import CHUNKS, LANES
+from sphframe.interfaces.arithmetic import fma
+from sphframe.interfaces.scratch import local_array
 from sphframe.physics.continuity import diffusive_flux
+from sphframe.physics.density_gradient import renormalised_2d, renormalised_3d
+from sphframe.physics.lanes import LANES
 from sphframe.physics.momentum import pair_stress
-from sphframe.physics.sums import add
 
-__all__ = ["fluid_rates"]
+__all__ = ["fluid_sums"]
 
 # parts bound by specialise()
 DIM = 2
 SUPPORT = 3.0  # R/h
-CLUSTER = 1  # particles that share a list
+SLOPE = True
 CONTINUITY = True
 MOMENTUM = True
 
 
-def GRADIENT(q: Any) -> Any:  # noqa: N802
-    """Stand for w'(q)/q of the kernel."""
+def GRADIENT(s: Any) -> Any:  # noqa: N802
+    """Stand for w'(q)/q of the kernel, as a function of q^2."""
 
 
-def fluid_rates(  # type: ignore[no-untyped-def]
-    rows, gradient, lists, fluid_counts, ghost_counts, support, gradient_scale, diffusion, viscosity, gravity, rates
-):
-    """Write velocity, acceleration (if MOMENTUM) and density rate (if CONTINUITY), (n, 2 dim + 1), to ``rates``.
+def fluid_sums(  # type: ignore[no-untyped-def]
+    rows, lists, fluid_counts, ghost_counts, support, gradient_scale, diffusion, viscosity, gravity, gradient, rates
+):  # fmt: skip
+    """Write <grad rho> (n, dim) to ``gradient`` if SLOPE; velocity, acceleration (if MOMENTUM) and density rate (if
+    CONTINUITY, with the ``gradient`` that is there) (n, 2 dim + 1) to ``rates``.
 
     ``gradient_scale`` is sigma_d / h^(d+2), ``diffusion`` delta h c0 in m^2/s, ``viscosity`` alpha h c0 rho0 in Pa s,
-    ``gravity`` acts downwards along the last axis, m/s^2. A row of ``lists`` serves CLUSTER consecutive particles,
-    whose common neighbourhood is copied first: see :mod:`sphframe.neighbours.lists`.
+    ``gravity`` acts downwards along the last axis, m/s^2. A row of ``lists`` serves LANES consecutive particles, which
+    stand side by side in vector registers: each neighbour is read once and meets all of them at once. The innermost
+    loops run over these lanes, and their local arrays become registers; a particle's sums keep the order of its list.
     """
     limit = support * support
-    per_h = SUPPORT / support
+    per_h2 = SUPPORT * SUPPORT / limit
     n = rates.shape[0]
-    clusters = fluid_counts.shape[0]
-    chunks = min(clusters, CHUNKS)
-    for chunk in numba.prange(chunks):
-        near = np.empty((3 * DIM + 3, lists.shape[1] + 2 * LANES))
-        xs = near[0]
-        ys = near[1]
-        zs = near[DIM - 1]
-        us = near[DIM]
-        vs = near[DIM + 1]
-        ws = near[2 * DIM - 1]
-        densities = near[2 * DIM]
-        pressures = near[2 * DIM + 1]
-        volumes = near[2 * DIM + 2]
-        gxs = near[2 * DIM + 3]
-        gys = near[2 * DIM + 4]
-        gzs = near[3 * DIM + 2]
-        for c in range(chunk * clusters // chunks, (chunk + 1) * clusters // chunks):
-            first = c * CLUSTER
-            count = fluid_counts[c]
-            # full vectors, fluid and ghosts apart: no remainder is left to a scalar loop
-            fluid = (count + LANES - 1) // LANES * LANES
-            both = fluid + (ghost_counts[c] + LANES - 1) // LANES * LANES
-            ghosts_end = fluid + ghost_counts[c]
-            for k in range(both):
-                listed = k if k < fluid else k - fluid + count
-                real = k < count or (k >= fluid and k < ghosts_end)
-                j = lists[c, listed] if real else first
-                xs[k] = rows[j, 0]
-                ys[k] = rows[j, 1]
-                us[k] = rows[j, DIM]
-                vs[k] = rows[j, DIM + 1]
+    for c in numba.prange(fluid_counts.shape[0]):
+        first = c * LANES
+        present = min(LANES, n - first)
+        fluid = fluid_counts[c]
+        both = fluid + ghost_counts[c]
+        x = local_array(LANES)
+        y = local_array(LANES)
+        z = local_array(LANES)
+        u = local_array(LANES)
+        v = local_array(LANES)
+        w = local_array(LANES)
+        density = local_array(LANES)
+        pressure = local_array(LANES)
+        gx = local_array(LANES)
+        gy = local_array(LANES)
+        gz = local_array(LANES)
+        compression = local_array(LANES)
+        diffused = local_array(LANES)
+        fx = local_array(LANES)
+        fy = local_array(LANES)
+        fz = local_array(LANES)
+        bx = local_array(LANES)
+        by = local_array(LANES)
+        bz = local_array(LANES)
+        xx = local_array(LANES)
+        xy = local_array(LANES)
+        yy = local_array(LANES)
+        xz = local_array(LANES)
+        yz = local_array(LANES)
+        zz = local_array(LANES)
+        for a in range(LANES):
+            i = first + min(a, present - 1)  # lanes that are left over do the last particle's work again
+            x[a] = rows[i, 0]
+            y[a] = rows[i, 1]
+            z[a] = rows[i, DIM - 1]
+            u[a] = rows[i, DIM]
+            v[a] = rows[i, DIM + 1]
+            w[a] = rows[i, 2 * DIM - 1]
+            density[a] = rows[i, 2 * DIM]
+            pressure[a] = rows[i, 2 * DIM + 1]
+            gx[a] = gradient[i, 0]
+            gy[a] = gradient[i, 1]
+            gz[a] = gradient[i, DIM - 1]
+            compression[a] = diffused[a] = 0.0
+            fx[a] = fy[a] = fz[a] = 0.0
+            bx[a] = by[a] = bz[a] = 0.0
+            xx[a] = xy[a] = yy[a] = xz[a] = yz[a] = zz[a] = 0.0
+        for k in range(fluid):
+            j = lists[c, k]
+            xj = rows[j, 0]
+            yj = rows[j, 1]
+            zj = rows[j, DIM - 1]
+            uj = rows[j, DIM]
+            vj = rows[j, DIM + 1]
+            wj = rows[j, 2 * DIM - 1]
+            density_j = rows[j, 2 * DIM]
+            pressure_j = rows[j, 2 * DIM + 1]
+            scale = -gradient_scale * rows[j, 2 * DIM + 2]
+            gxj = gradient[j, 0]
+            gyj = gradient[j, 1]
+            gzj = gradient[j, DIM - 1]
+            for a in range(LANES):
+                dx = xj - x[a]
+                dy = yj - y[a]
+                r2 = fma(dx, dx, dy * dy)
                 if DIM == 3:
-                    zs[k] = rows[j, 2]
-                    ws[k] = rows[j, 5]
+                    dz = zj - z[a]
+                    r2 = fma(dz, dz, r2)
+                weight = GRADIENT(r2 * per_h2) * scale
+                weight = weight if r2 < limit else 0.0  # a choice, not a branch: the loop vectorises
+                if MOMENTUM or CONTINUITY:
+                    approach = fma(uj - u[a], dx, (vj - v[a]) * dy)
+                    if DIM == 3:
+                        approach = fma(wj - w[a], dz, approach)
+                if CONTINUITY:
+                    sloped = fma(gx[a] + gxj, dx, (gy[a] + gyj) * dy)
+                    if DIM == 3:
+                        sloped = fma(gz[a] + gzj, dz, sloped)
+                    compression[a] = fma(weight, approach, compression[a])
+                    diffused[a] = fma(weight, diffusive_flux(density_j - density[a], sloped), diffused[a])
                 if MOMENTUM:
-                    pressures[k] = rows[j, 2 * DIM + 1]
-                volumes[k] = rows[j, 2 * DIM + 2] if real else 0.0
-                if CONTINUITY and k < fluid:
-                    densities[k] = rows[j, 2 * DIM]
-                    gxs[k] = gradient[j, 0]
-                    gys[k] = gradient[j, 1]
+                    stress = weight * pair_stress(pressure[a] + pressure_j, viscosity, approach, r2)
+                    fx[a] = fma(stress, dx, fx[a])
+                    fy[a] = fma(stress, dy, fy[a])
                     if DIM == 3:
-                        gzs[k] = gradient[j, 2]
-            for i in range(first, min(first + CLUSTER, n)):
-                x = rows[i, 0]
-                y = rows[i, 1]
-                z = rows[i, DIM - 1]
-                u = rows[i, DIM]
-                v = rows[i, DIM + 1]
-                w = rows[i, 2 * DIM - 1]
-                density = rows[i, 2 * DIM]
-                pressure = rows[i, 2 * DIM + 1]
-                gx = gradient[i, 0]
-                gy = gradient[i, 1]
-                gz = gradient[i, DIM - 1]
-                compression = 0.0
-                diffused = 0.0
-                fx = fy = fz = 0.0
-                for k in range(fluid):
-                    dx = xs[k] - x
-                    dy = ys[k] - y
-                    r2 = dx * dx + dy * dy
-                    approach = (us[k] - u) * dx + (vs[k] - v) * dy
+                        fz[a] = fma(stress, dz, fz[a])
+                if SLOPE:
+                    rise = weight * (density_j - density[a])
+                    wx = weight * dx
+                    wy = weight * dy
+                    bx[a] = fma(rise, dx, bx[a])
+                    by[a] = fma(rise, dy, by[a])
+                    xx[a] = fma(wx, dx, xx[a])
+                    xy[a] = fma(wx, dy, xy[a])
+                    yy[a] = fma(wy, dy, yy[a])
                     if DIM == 3:
-                        dz = zs[k] - z
-                        r2 += dz * dz
-                        approach += (ws[k] - w) * dz
-                    weight = -gradient_scale * GRADIENT(math.sqrt(r2) * per_h) * volumes[k]
-                    weight = weight if r2 < limit else 0.0  # a choice, not a branch: the loop vectorises
-                    if CONTINUITY:
-                        sloped = (gx + gxs[k]) * dx + (gy + gys[k]) * dy
-                        if DIM == 3:
-                            sloped += (gz + gzs[k]) * dz
-                        compression = add(compression, weight * approach)
-                        diffused = add(diffused, weight * diffusive_flux(densities[k] - density, sloped))
-                    if MOMENTUM:
-                        stress = weight * pair_stress(pressure + pressures[k], viscosity, approach, r2)
-                        fx = add(fx, stress * dx)
-                        fy = add(fy, stress * dy)
-                        if DIM == 3:
-                            fz = add(fz, stress * dz)
-                for k in range(fluid, both):
-                    dx = xs[k] - x
-                    dy = ys[k] - y
-                    r2 = dx * dx + dy * dy
-                    approach = (us[k] - u) * dx + (vs[k] - v) * dy
+                        bz[a] = fma(rise, dz, bz[a])
+                        xz[a] = fma(wx, dz, xz[a])
+                        yz[a] = fma(wy, dz, yz[a])
+                        zz[a] = fma(weight * dz, dz, zz[a])
+        if MOMENTUM or CONTINUITY:
+            for k in range(fluid, both):
+                j = lists[c, k]
+                xj = rows[j, 0]
+                yj = rows[j, 1]
+                zj = rows[j, DIM - 1]
+                uj = rows[j, DIM]
+                vj = rows[j, DIM + 1]
+                wj = rows[j, 2 * DIM - 1]
+                pressure_j = rows[j, 2 * DIM + 1]
+                scale = -gradient_scale * rows[j, 2 * DIM + 2]
+                for a in range(LANES):
+                    dx = xj - x[a]
+                    dy = yj - y[a]
+                    r2 = fma(dx, dx, dy * dy)
+                    approach = fma(uj - u[a], dx, (vj - v[a]) * dy)
                     if DIM == 3:
-                        dz = zs[k] - z
-                        r2 += dz * dz
-                        approach += (ws[k] - w) * dz
-                    weight = -gradient_scale * GRADIENT(math.sqrt(r2) * per_h) * volumes[k]
+                        dz = zj - z[a]
+                        r2 = fma(dz, dz, r2)
+                        approach = fma(wj - w[a], dz, approach)
+                    weight = GRADIENT(r2 * per_h2) * scale
                     weight = weight if r2 < limit else 0.0
                     if CONTINUITY:
-                        compression = add(compression, weight * approach)
+                        compression[a] = fma(weight, approach, compression[a])
                     if MOMENTUM:
-                        stress = weight * pair_stress(pressure + pressures[k], viscosity, approach, r2)
-                        fx = add(fx, stress * dx)
-                        fy = add(fy, stress * dy)
+                        stress = weight * pair_stress(pressure[a] + pressure_j, viscosity, approach, r2)
+                        fx[a] = fma(stress, dx, fx[a])
+                        fy[a] = fma(stress, dy, fy[a])
                         if DIM == 3:
-                            fz = add(fz, stress * dz)
-                rates[i, 0] = u
-                rates[i, 1] = v
+                            fz[a] = fma(stress, dz, fz[a])
+        for a in range(present):
+            i = first + a
+            if MOMENTUM or CONTINUITY:
+                rates[i, 0] = u[a]
+                rates[i, 1] = v[a]
                 if DIM == 3:
-                    rates[i, 2] = w
-                if MOMENTUM:
-                    rates[i, DIM] = fx / density
-                    rates[i, DIM + 1] = fy / density
-                    if DIM == 3:
-                        rates[i, DIM + 2] = fz / density
-                    rates[i, 2 * DIM - 1] -= gravity
-                if CONTINUITY:
-                    rates[i, 2 * DIM] = diffusion * diffused - density * compression
+                    rates[i, 2] = w[a]
+            if MOMENTUM:
+                rates[i, DIM] = fx[a] / density[a]
+                rates[i, DIM + 1] = fy[a] / density[a]
+                if DIM == 3:
+                    rates[i, DIM + 2] = fz[a] / density[a]
+                rates[i, 2 * DIM - 1] -= gravity
+            if CONTINUITY:
+                rates[i, 2 * DIM] = diffusion * diffused[a] - density[a] * compression[a]
+            if SLOPE:
+                if DIM == 2:
+                    gradient[i, 0], gradient[i, 1] = renormalised_2d(bx[a], by[a], xx[a], xy[a], yy[a])
+                else:
+                    gradient[i, 0], gradient[i, 1], gradient[i, 2] = renormalised_3d(
+                        bx[a], by[a], bz[a], xx[a], xy[a], yy[a], xz[a], yz[a], zz[a]
+                    )

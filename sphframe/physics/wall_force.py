@@ -11,11 +11,11 @@ fixed number of chunks, and the chunks in their order, so the result has the sam
 Departs from the paper: its Eq. 29 takes a pressure difference, which is zero on a hydrostatic wall.
 """
 
-import math
 from typing import Any
 
 import numba
 
+from sphframe.physics.lanes import LANES
 from sphframe.physics.momentum import pair_stress
 
 __all__ = ["wall_reaction"]
@@ -23,11 +23,10 @@ __all__ = ["wall_reaction"]
 # parts bound by specialise()
 DIM = 2
 SUPPORT = 3.0  # R/h
-CLUSTER = 1  # particles that share a list
 
 
-def GRADIENT(q: Any) -> Any:  # noqa: N802
-    """Stand for w'(q)/q of the kernel."""
+def GRADIENT(s: Any) -> Any:  # noqa: N802
+    """Stand for w'(q)/q of the kernel, as a function of q^2."""
 
 
 @numba.njit(inline="always")
@@ -51,12 +50,12 @@ def wall_reaction(  # type: ignore[no-untyped-def]
     ``centres`` (walls, dim) is what moments refer to; ``partial`` (chunks, walls, 3) is scratch.
     """
     limit = support * support
-    per_h = SUPPORT / support
+    per_h2 = SUPPORT * SUPPORT / limit
     chunks = partial.shape[0]
     for chunk in numba.prange(chunks):
         partial[chunk] = 0.0
         for i in range(chunk * fluid_count // chunks, (chunk + 1) * fluid_count // chunks):
-            c = i // CLUSTER
+            c = i // LANES
             for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
                 j = lists[c, k]
                 dx = rows[j, 0] - rows[i, 0]
@@ -69,7 +68,7 @@ def wall_reaction(  # type: ignore[no-untyped-def]
                     r2 += dz * dz
                     approach += (rows[j, DIM + 2] - rows[i, DIM + 2]) * dz
                 if r2 < limit:
-                    weight = gradient_scale * GRADIENT(math.sqrt(r2) * per_h)
+                    weight = gradient_scale * GRADIENT(r2 * per_h2)
                     weight *= rows[i, 2 * DIM + 2] * rows[j, 2 * DIM + 2]
                     pressures = rows[i, 2 * DIM + 1] + rows[j, 2 * DIM + 1]
                     stress = weight * pair_stress(pressures, viscosity, approach, r2)

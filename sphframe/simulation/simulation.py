@@ -12,13 +12,14 @@ import pluggy
 from numpy.typing import NDArray
 
 from sphframe.boundary.boundary import Boundary
+from sphframe.boundary.operator import compiled_kernel
 from sphframe.cases.case import Case, Fields, Scene
 from sphframe.errors import InputError, SimulationError
 from sphframe.geometry import lattice, lattice_cell, wall_panels
-from sphframe.interfaces import CompiledKernel, EquationOfState, Kernel, Motion, Status
+from sphframe.interfaces import EquationOfState, Kernel, Motion, Status
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
-from sphframe.physics import sample_points
+from sphframe.physics import LANES, sample_points
 from sphframe.registry import create
 from sphframe.simulation.guards import check_promises, check_time_step, naming_component, naming_hook, watch
 from sphframe.simulation.interruption import Interruption, deferred_interruption
@@ -33,9 +34,6 @@ Array = NDArray[np.float64]
 
 SKIN = 0.1
 """skin of the neighbour lists over the kernel support"""
-
-CLUSTER = 8
-"""particles that share a neighbour list"""
 
 
 class Simulation:
@@ -82,12 +80,7 @@ class Simulation:
 
     def _set_up(self, shape: Kernel, state: EquationOfState) -> None:
         case, dim, spacing = self.case, self.case.dimension, self.case.particle_spacing
-        kernel = CompiledKernel(
-            compile_part(shape.value_function()),
-            compile_part(shape.gradient_function()),
-            shape.support,
-            shape.normalisation(dim),
-        )
+        kernel = compiled_kernel(shape, dim)
         self.sound_speed = case.sound_speed or 20.0 * math.sqrt(max(case.gravity, 1e-12) * self.scene.depth)
         self.parameters = Parameters(
             dim=dim,
@@ -237,8 +230,15 @@ class Simulation:
         self._reference = np.zeros((fluid_count, self.case.dimension))
 
     def _new_lists(self) -> NeighbourLists:
+        dim, spacing = self.case.dimension, self.case.particle_spacing
         return NeighbourLists(
-            self.case.dimension, self.fluid_count, self.ghost_count, self.support, SKIN * self.support, CLUSTER
+            dim,
+            self.fluid_count,
+            self.ghost_count,
+            self.support,
+            SKIN * self.support,
+            cluster=LANES,
+            width=LANES ** (1.0 / dim) * spacing,
         )
 
     @property
@@ -313,8 +313,7 @@ class Simulation:
         """Put the particles in spatial order and list their neighbours."""
         rows, n = self.system.rows, self.fluid_count
         order = self.lists.sort(rows)
-        rows[:n] = rows[:n][order]
-        self.system.rates[:] = self.system.rates[order]
+        self.system.put_in_order(order)
         self._ids = self._ids[order]
         self.lists.build(rows, self.boundary.points)
         self._reference[:] = rows[:n, self.columns.position]
@@ -563,4 +562,4 @@ def _with_count(shape: tuple[int, ...], name: str, count: int, ghosts: int) -> t
     """Return the shape that an array of the state has with ``count`` fluid particles."""
     if name == "system.rows":
         return (count + ghosts, *shape[1:])
-    return (count, *shape[1:]) if name in ("ids", "reference", "system.rates") else shape
+    return (count, *shape[1:]) if name in ("ids", "reference", "system.rates", "system.gradient") else shape

@@ -14,9 +14,9 @@ from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.contact import put_back
 from sphframe.errors import SimulationError
 from sphframe.interfaces import CompiledKernel, EquationOfState, Motion, RigidBody, System
-from sphframe.neighbours import NeighbourLists
+from sphframe.neighbours import NeighbourLists, put_in_order
 from sphframe.particles import Columns
-from sphframe.physics import density_gradient, fluid_rates, update_pressure, wall_reaction
+from sphframe.physics import fluid_sums, update_pressure, wall_reaction
 from sphframe.specialise import compile_part, specialise
 
 __all__ = ["FluidSystem", "Parameters"]
@@ -58,6 +58,7 @@ class FluidSystem(System):
     ----------
     rows: (n + g, width) packed rows, see :class:`Columns`; the fluid comes first.
     rates: (n, 2 dim + 1) velocity, acceleration and density rate of the last evaluation.
+    gradient: (n, dim) renormalised density gradient, kg/m^4.
     body_position, body_velocity: (bodies, 3); ``loads`` (walls, 3) force and moment on each wall.
     """
 
@@ -88,16 +89,20 @@ class FluidSystem(System):
         self._partial_loads = np.zeros((64, walls, 3))
         self._driving_force = np.zeros(dim)
         self._driving_force[-1] = -parameters.reference_density * parameters.gravity
-        parts = {"DIM": dim, "SUPPORT": kernel.support, "CLUSTER": lists.cluster}
+        parts = {"DIM": dim, "SUPPORT": kernel.support, "GRADIENT": kernel.gradient_of_square}
         self._pressure = specialise(
             update_pressure, {"DIM": dim, "PRESSURE": compile_part(equation_of_state.pressure_function())}
         )
-        self._density_gradient = specialise(density_gradient, {**parts, "GRADIENT": kernel.gradient})
-        self._all_rates, self._density_rates, self._accelerations = (
-            specialise(fluid_rates, {**parts, "GRADIENT": kernel.gradient, "CONTINUITY": c, "MOMENTUM": m})
-            for c, m in ((True, True), (True, False), (False, True))
+        self._gradient, self._all_rates, self._density_rates, self._accelerations = (
+            specialise(fluid_sums, {**parts, "SLOPE": slope, "CONTINUITY": continuity, "MOMENTUM": momentum})
+            for slope, continuity, momentum in (
+                (True, False, False),
+                (False, True, True),
+                (False, True, False),
+                (True, False, True),
+            )
         )
-        self._wall_reaction = specialise(wall_reaction, {**parts, "GRADIENT": kernel.gradient})
+        self._wall_reaction = specialise(wall_reaction, parts)
 
     def _hold_fluid(self, rows: Array, rates: Array, lists: NeighbourLists) -> None:
         self.rows, self.rates, self.lists = rows, rates, lists
@@ -105,17 +110,26 @@ class FluidSystem(System):
         self.gradient = np.zeros((self.fluid_count, self.parameters.dim))
         self._start = np.zeros_like(rates)
         self._total = np.zeros_like(rates)
+        self._spare = np.zeros((self.fluid_count, self.columns.width))
 
     def keep(self, kept: NDArray[np.bool_], lists: NeighbourLists) -> None:
         """Go on with the fluid particles that are ``kept`` (n,) and with new ``lists`` for that many."""
-        n = self.fluid_count
+        n, gradient = self.fluid_count, self.gradient[kept]
         self._hold_fluid(np.vstack([self.rows[:n][kept], self.rows[n:]]), self.rates[kept], lists)
+        self.gradient[:] = gradient
+
+    def put_in_order(self, order: NDArray[np.int64]) -> None:
+        """Number the fluid particles anew: the k-th is the one that was ``order[k]`` (n,)."""
+        put_in_order(self.rows, order, self._spare)
+        put_in_order(self.rates, order, self._spare)
+        put_in_order(self.gradient, order, self._spare)
 
     def state(self) -> dict[str, Array]:
         """Return copies of all that the next step depends on, by name."""
         return {
             "rows": self.rows.copy(),
             "rates": self.rates.copy(),
+            "gradient": self.gradient.copy(),
             "loads": self.loads.copy(),
             "body_position": self.body_position.copy(),
             "body_velocity": self.body_velocity.copy(),
@@ -127,6 +141,7 @@ class FluidSystem(System):
         """Continue from what :meth:`state` returned, with as many particles as there are now."""
         self.rows[:] = state["rows"]
         self.rates[:] = state["rates"]
+        self.gradient[:] = state["gradient"]
         self.loads[:] = state["loads"]
         self.body_position[:] = state["body_position"]
         self.body_velocity[:] = state["body_velocity"]
@@ -139,23 +154,22 @@ class FluidSystem(System):
         self.update_pressure()
         self.fill_ghosts()
         self.find_density_gradient()
-        self._find_rates(self._all_rates)
+        self._find(self._all_rates)
         self.find_body_rates(time)
 
     def evaluate_density(self, time: float) -> None:
-        """Compute the density rates of the present state at ``time``."""
+        """Compute the density rates of the present state at ``time``, with the density gradient last computed."""
         self.move_walls(time)
         self.update_pressure()
         self.fill_ghosts()
-        self.find_density_gradient()
-        self._find_rates(self._density_rates)
+        self._find(self._density_rates)
 
     def evaluate_acceleration(self, time: float) -> None:
-        """Compute the accelerations of the present state at ``time``."""
+        """Compute the accelerations and the density gradient of the present state at ``time``."""
         self.move_walls(time)
         self.update_pressure()
         self.fill_ghosts()
-        self._find_rates(self._accelerations)
+        self._find(self._accelerations)
         self.find_body_rates(time)
 
     def move_walls(self, time: float) -> None:
@@ -185,14 +199,13 @@ class FluidSystem(System):
 
     def find_density_gradient(self) -> None:
         """Renormalised density gradient of the fluid."""
-        p, lists = self.parameters, self.lists
-        self._density_gradient(self.rows, lists.fluid, lists.fluid_counts, p.support, p.gradient_scale, self.gradient)
+        self._find(self._gradient)
 
-    def _find_rates(self, loop: Any) -> None:
+    def _find(self, sums: Any) -> None:
         p, lists = self.parameters, self.lists
-        loop(
-            self.rows, self.gradient, lists.fluid, lists.fluid_counts, lists.ghost_counts, p.support,
-            p.gradient_scale, p.diffusion, p.viscosity, p.gravity, self.rates,
+        sums(
+            self.rows, lists.fluid, lists.fluid_counts, lists.ghost_counts, p.support, p.gradient_scale,
+            p.diffusion, p.viscosity, p.gravity, self.gradient, self.rates,
         )  # fmt: skip
 
     def find_loads(self) -> None:

@@ -73,7 +73,13 @@ def plain_evaluator(method: BoundaryInterpolator, dim: int, kernel: str = "gauss
     """Return the same as :func:`evaluator`, run by the Python interpreter; weights of a point not OK are not filled."""
     chosen = create("kernels", kernel)
     value = chosen.value_function()
-    functions = CompiledKernel(value, chosen.gradient_function(), chosen.support, chosen.normalisation(dim))
+    functions = CompiledKernel(
+        value,
+        chosen.gradient_function(),
+        chosen.support,
+        chosen.normalisation(dim),
+        chosen.gradient_of_square_function(),
+    )
     weights = method.point_weights(functions, dim)
 
     def run(cloud: Cloud) -> Outcome:

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from sphframe.boundary.boundary import Boundary
+from sphframe.boundary.operator import compiled_kernel
 from sphframe.equations_of_state.linear import Linear
 from sphframe.geometry import BoxRegion, BoxWall, lattice
-from sphframe.interfaces import CompiledKernel, Motion, RigidBody, Status
+from sphframe.interfaces import Motion, RigidBody, Status
 from sphframe.kernels.gaussian import RenormalisedGaussian
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
 from sphframe.registry import create
-from sphframe.specialise import compile_part
 
 METHODS = ["improved-shepard", "shepard", "normalized", "sfdi", "mls-linear", "mls-quadratic", "mdbc", "adami"]
 LINEAR_EXACT = ["sfdi", "mls-linear", "mls-quadratic"]
@@ -34,12 +34,7 @@ class Basin:
 
     def __init__(self, method, dim=2, *, lift="balanced", slip="free", body=None, jitter=0.2):
         shape = RenormalisedGaussian()
-        self.kernel = CompiledKernel(
-            compile_part(shape.value_function()),
-            compile_part(shape.gradient_function()),
-            shape.support,
-            shape.normalisation(dim),
-        )
+        self.kernel = compiled_kernel(shape, dim)
         self.dim, self.h = dim, 1.3 * SPACING
         side = 1.2 if dim == 2 else 0.8
         wall = BoxWall(

@@ -4,12 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from sphframe.boundary.operator import compiled_kernel
 from sphframe.interfaces import CompiledKernel
 from sphframe.kernels.gaussian import RenormalisedGaussian
 from sphframe.kernels.wendland import WendlandC2
 from sphframe.particles import Columns
-from sphframe.physics import density_gradient, fluid_rates
-from sphframe.specialise import compile_part, specialise
+from sphframe.physics import LANES, fluid_sums
+from sphframe.specialise import specialise
 
 KERNELS = {"gaussian": RenormalisedGaussian(), "wendland-c2": WendlandC2()}
 
@@ -43,30 +44,37 @@ class Cloud:
         return -self.gradient_scale * factor[:, None] * x_ji
 
     def density_gradient(self):
-        loop = specialise(
-            density_gradient, {"DIM": self.dim, "SUPPORT": self.kernel.support, "GRADIENT": self.kernel.gradient}
-        )
         gradient = np.full((self.fluid_count, self.dim), np.nan)
-        loop(self.rows, self.lists, self.fluid_counts, self.support, self.gradient_scale, gradient)
+        self._sum(gradient, np.zeros((self.fluid_count, 2 * self.dim + 1)), slope=True)
         return gradient
 
-    def rates(self, gradient, *, diffusion=0.0, viscosity=0.0, gravity=0.0, continuity=True, momentum=True):
-        loop = specialise(
-            fluid_rates,
-            {
-                "DIM": self.dim,
-                "SUPPORT": self.kernel.support,
-                "GRADIENT": self.kernel.gradient,
-                "CONTINUITY": continuity,
-                "MOMENTUM": momentum,
-            },
-        )
+    def rates(self, gradient, *, continuity=True, momentum=True, **numbers):
         rates = np.full((self.fluid_count, 2 * self.dim + 1), np.nan)
-        loop(
-            self.rows, gradient, self.lists, self.fluid_counts, self.ghost_counts, self.support, self.gradient_scale,
-            diffusion, viscosity, gravity, rates,
-        )  # fmt: skip
+        self._sum(gradient, rates, continuity=continuity, momentum=momentum, **numbers)
         return rates
+
+    def acceleration_and_gradient(self, **numbers):
+        gradient = np.full((self.fluid_count, self.dim), np.nan)
+        rates = np.full((self.fluid_count, 2 * self.dim + 1), np.nan)
+        self._sum(gradient, rates, slope=True, momentum=True, **numbers)
+        return rates, gradient
+
+    def _sum(
+        self, gradient, rates, *, diffusion=0.0, viscosity=0.0, gravity=0.0, slope=False, continuity=False,
+        momentum=False,
+    ):  # fmt: skip
+        parts = {
+            "DIM": self.dim,
+            "SUPPORT": self.kernel.support,
+            "GRADIENT": self.kernel.gradient_of_square,
+            "SLOPE": slope,
+            "CONTINUITY": continuity,
+            "MOMENTUM": momentum,
+        }
+        specialise(fluid_sums, parts)(
+            self.rows, self.lists, self.fluid_counts, self.ghost_counts, self.support, self.gradient_scale,
+            diffusion, viscosity, gravity, gradient, rates,
+        )  # fmt: skip
 
 
 def make_cloud(dim, seed=0, *, kernel="gaussian", cells=6, ghosts=True, jitter=0.3, spacing=0.1):
@@ -87,22 +95,17 @@ def make_cloud(dim, seed=0, *, kernel="gaussian", cells=6, ghosts=True, jitter=0
     rows[:, columns.mass] = random.uniform(0.8, 1.2, len(position)) * 1000.0 * spacing**dim
     rows[:, columns.volume] = rows[:, columns.mass] / rows[:, columns.density]
     shape = KERNELS[kernel]
-    compiled = CompiledKernel(
-        compile_part(shape.value_function()),
-        compile_part(shape.gradient_function()),
-        shape.support,
-        shape.normalisation(dim),
-    )
     h = 1.3 * spacing
     reach = 1.1 * shape.support * h
     fluid, counts, ghost_counts = [], [], []
-    for i in range(n):
-        near = np.flatnonzero(np.linalg.norm(position - position[i], axis=1) < reach)
-        near = near[near != i]
+    for first in range(0, n, LANES):
+        members = position[first : min(first + LANES, n)]
+        near = np.flatnonzero((np.linalg.norm(position[:, None] - members, axis=2) < reach).any(axis=1))
         fluid.append(near)  # fluid rows come first, so fluid neighbours do
         counts.append(int((near < n).sum()))
         ghost_counts.append(int((near >= n).sum()))
-    lists = np.zeros((n, max(map(len, fluid))), np.uint32)
-    for i, near in enumerate(fluid):
-        lists[i, : len(near)] = near
+    lists = np.zeros((len(fluid), max(map(len, fluid))), np.uint32)
+    for c, near in enumerate(fluid):
+        lists[c, : len(near)] = near
+    compiled = compiled_kernel(shape, dim)
     return Cloud(dim, rows, n, compiled, h, lists, np.array(counts, np.uint32), np.array(ghost_counts, np.uint32))

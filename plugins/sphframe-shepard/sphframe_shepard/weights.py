@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 from sphframe import OK, BoundaryInterpolator, CompiledKernel, Traits, WeightsFunction
+from sphframe.kernels import fast_exp
 
 _TRAITS = Traits(
     non_negative=True,
@@ -85,22 +86,25 @@ class ImprovedShepard(BoundaryInterpolator):
         """Return the weights function; it uses the distances and the cut-off radius alone."""
         mu, attenuation = _as_power(self.mu), _as_power(self.attenuation)
         smallest = 1e-290  # 1 - s^attenuation may round to zero for s just below 1
+        negligible = -36.0  # beside the nearest particle's weight, exp(-36) is round-off
 
         def weights(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]
             n = distances.shape[0]
             nearest = distances[0]
             for j in range(1, n):
                 nearest = min(nearest, distances[j])
-            s = nearest / support
-            largest_exponent = -s * s / max(1.0 - s**attenuation, smallest)
+            if nearest > 0.0:
+                s = nearest / support
+                largest_exponent = -s * s / max(1.0 - s**attenuation, smallest)
+                for j in range(n):  # without branches or calls of the C library: it vectorises
+                    s = distances[j] / support
+                    exponent = mu * (-s * s / max(1.0 - s**attenuation, smallest) - largest_exponent)
+                    out[j] = (nearest / distances[j]) ** mu * fast_exp(max(exponent, negligible) / 4) ** 4
+            else:
+                for j in range(n):
+                    out[j] = 1.0 if distances[j] == 0.0 else 0.0
             total = 0.0
             for j in range(n):
-                if nearest > 0.0:
-                    s = distances[j] / support
-                    exponent = -s * s / max(1.0 - s**attenuation, smallest)
-                    out[j] = (nearest / distances[j] * math.exp(exponent - largest_exponent)) ** mu
-                else:
-                    out[j] = 1.0 if distances[j] == 0.0 else 0.0
                 total += out[j]
             for j in range(n):
                 out[j] /= total
