@@ -16,52 +16,66 @@ import math
 
 import numba
 
+from sphframe.interfaces.scratch import local_array
+from sphframe.physics import LANES
+
 __all__ = ["put_back"]
 
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
 def put_back(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, cluster, fluid_counts, ghost_counts, dim, spacing, mirror, wall_velocity
+    rows, fluid_count, lists, fluid_counts, ghost_counts, dim, spacing, mirror, wall_velocity
 ):
     """Put particles behind a wall back on it, in ``rows``; return how many there were.
 
-    A row of ``lists`` serves ``cluster`` particles; ``mirror``, ``wall_velocity`` (g, dim): mirror points, m, and
+    A row of ``lists`` serves LANES particles; ``mirror``, ``wall_velocity`` (g, dim): mirror points, m, and
     velocities, m/s, of the walls at the ghosts.
     """
     contacts = 0
     for c in numba.prange(fluid_counts.shape[0]):
         if ghost_counts[c] == 0:
             continue
-        for i in range(c * cluster, min((c + 1) * cluster, fluid_count)):
-            nearest = -1
-            closest = spacing * spacing
-            for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
-                j = lists[c, k]
+        first = c * LANES
+        present = min(LANES, fluid_count - first)
+        closest = local_array(LANES)
+        nearest = local_array(LANES)
+        for a in range(LANES):
+            closest[a] = spacing * spacing
+            nearest[a] = -1.0
+        for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
+            j = lists[c, k]
+            span2 = 0.0
+            for d in range(dim):
+                span2 += (rows[j, d] - mirror[j - fluid_count, d]) ** 2
+            if span2 > 1.5 * spacing * spacing:  # in the first layer of a face it is 1: 2 d is the spacing
+                continue
+            for a in range(present):
                 distance2 = 0.0
-                span2 = 0.0
                 for d in range(dim):
-                    distance2 += (rows[j, d] - rows[i, d]) ** 2
-                    span2 += (rows[j, d] - mirror[j - fluid_count, d]) ** 2
-                if distance2 < closest and span2 < 1.5 * spacing * spacing:  # first layer of a face: 2 d = 1 spacing
-                    closest = distance2
-                    nearest = j - fluid_count
-            if nearest >= 0:
-                ghost = fluid_count + nearest
+                    distance2 += (rows[j, d] - rows[first + a, d]) ** 2
+                if distance2 < closest[a]:
+                    closest[a] = distance2
+                    nearest[a] = j - fluid_count
+        for a in range(present):
+            if nearest[a] >= 0.0:
+                i = first + a
+                g = int(nearest[a])
+                ghost = fluid_count + g
                 span = 0.0
                 depth = 0.0
                 for d in range(dim):
-                    across = rows[ghost, d] - mirror[nearest, d]
+                    across = rows[ghost, d] - mirror[g, d]
                     span += across * across
-                    depth += (rows[i, d] - 0.5 * (rows[ghost, d] + mirror[nearest, d])) * across
+                    depth += (rows[i, d] - 0.5 * (rows[ghost, d] + mirror[g, d])) * across
                 if depth > 0.0:
                     span = math.sqrt(span)
                     depth /= span
                     into = 0.0
                     for d in range(dim):
-                        normal = (rows[ghost, d] - mirror[nearest, d]) / span
-                        into += (rows[i, dim + d] - wall_velocity[nearest, d]) * normal
+                        normal = (rows[ghost, d] - mirror[g, d]) / span
+                        into += (rows[i, dim + d] - wall_velocity[g, d]) * normal
                     for d in range(dim):
-                        normal = (rows[ghost, d] - mirror[nearest, d]) / span
+                        normal = (rows[ghost, d] - mirror[g, d]) / span
                         rows[i, d] -= depth * normal
                         rows[i, dim + d] -= max(into, 0.0) * normal
                     contacts += 1

@@ -20,7 +20,8 @@ class Symplectic(Integrator):
 
     Velocity and density take turns, so an undamped acoustic oscillation of frequency omega keeps its amplitude up to
     omega dt = 2. (Advancing both together at the half step, as many predictor-correctors do, amplifies it by
-    (omega dt)^4/8 a step and relies on dissipation.) Viscous terms see the half-step velocity.
+    (omega dt)^4/8 a step and relies on dissipation.) Viscous terms see the half-step velocity, and the density
+    diffusion the renormalised density gradient at x0, which is computed together with the acceleration.
 
     Source: L. Verlet (1967), doi:10.1103/PhysRev.159.98; in SPH S. Adami, X. Y. Hu, N. A. Adams (2012),
     doi:10.1016/j.jcp.2012.05.005.

@@ -32,7 +32,7 @@ class System(Protocol):
         """y = y0 + interval * total."""
 
     def evaluate_density(self, time: float) -> None:
-        """Compute the density rates of the present state."""
+        """Compute the density rates of the present state, with the density gradient of the last acceleration."""
 
     def evaluate_acceleration(self, time: float) -> None:
         """Compute the accelerations of the present state."""

@@ -254,7 +254,7 @@ class FluidSystem(System):
         lists, boundary = self.lists, self.boundary
         return int(
             put_back(
-                self.rows, self.fluid_count, lists.fluid, lists.cluster, lists.fluid_counts, lists.ghost_counts,
+                self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts,
                 self.parameters.dim, spacing, boundary.mirror, boundary.velocity,
             )
         )  # fmt: skip

@@ -60,8 +60,8 @@ class MDBC(BoundaryInterpolator):
             n = distances.shape[0]
             if n < terms:
                 return TOO_FEW
-            h = support / smoothing_lengths
-            gradient_scale = -normalisation / h**dim  # so that the rows of grad W carry the unit and sign of W
+            per_h = smoothing_lengths / support
+            gradient_scale = -normalisation * per_h**dim  # so that the rows of grad W carry the unit and sign of W
 
             # A^T with lengths in units of h; the constant comes last, after a symmetric positive block
             basis = local_array(terms)
@@ -70,9 +70,9 @@ class MDBC(BoundaryInterpolator):
             for k in range(entries):
                 matrix[k] = 0.0
             for j in range(n):
-                slope = gradient_scale * kernel_gradient(distances[j] / h)
+                slope = gradient_scale * kernel_gradient(distances[j] * per_h)
                 for a in range(dim):
-                    basis[a] = offsets[j, a] / h
+                    basis[a] = offsets[j, a] * per_h
                 for a in range(terms):
                     for b in range(dim):
                         matrix[a * terms + b] += volumes[j] * basis[a] * slope * basis[b]
@@ -80,7 +80,7 @@ class MDBC(BoundaryInterpolator):
             solution = local_array(terms)
             scale = 0.0
             for a in range(dim):
-                solution[a] = lift[a] / h
+                solution[a] = lift[a] * per_h
                 scale += matrix[a * terms + a] / dim
             solution[dim] = 1.0
             constant_scale = matrix[entries - 1]
@@ -104,8 +104,8 @@ class MDBC(BoundaryInterpolator):
             for j in range(n):
                 along = 0.0
                 for a in range(dim):
-                    along += solution[a] * offsets[j, a] / h
-                slope = gradient_scale * kernel_gradient(distances[j] / h)
+                    along += solution[a] * (offsets[j, a] * per_h)
+                slope = gradient_scale * kernel_gradient(distances[j] * per_h)
                 out[j] = volumes[j] * (solution[dim] * kernel_values[j] + slope * along)
                 absolute_sum += abs(out[j])
             if not absolute_sum <= amplification:

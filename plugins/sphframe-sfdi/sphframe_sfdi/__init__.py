@@ -77,7 +77,7 @@ class SFDI(BoundaryInterpolator):
             n = distances.shape[0]
             if n < fewest:
                 return TOO_FEW
-            h = support / smoothing_lengths
+            per_h = smoothing_lengths / support
 
             i = 0
             for j in range(1, n):
@@ -95,6 +95,7 @@ class SFDI(BoundaryInterpolator):
                 total += kernel_values[j]
             if not total > 0.0:
                 return SINGULAR
+            share = 1.0 / total
 
             # right-hand side R0 and matrix N, both in units of h; out[j] keeps W(|r_ji|) / |r_ji|^2 for the second pass
             correction = local_array(dim)
@@ -105,10 +106,10 @@ class SFDI(BoundaryInterpolator):
                     matrix[a * dim + b] = 0.0
             for j in range(n):
                 for a in range(dim):
-                    correction[a] += kernel_values[j] / total * offsets[j, a] / h
+                    correction[a] += kernel_values[j] * share * (offsets[j, a] * per_h)
                 square = 0.0
                 for a in range(dim):
-                    square += ((offsets[j, a] - offsets[i, a]) / h) ** 2
+                    square += ((offsets[j, a] - offsets[i, a]) * per_h) ** 2
                 out[j] = 0.0
                 q = math.sqrt(square)
                 if square > 0.0 and q < smoothing_lengths:
@@ -117,7 +118,9 @@ class SFDI(BoundaryInterpolator):
                         for b in range(a + 1):
                             if coupled or a == b:
                                 matrix[a * dim + b] += (
-                                    out[j] * (offsets[j, a] - offsets[i, a]) / h * (offsets[j, b] - offsets[i, b]) / h
+                                    out[j]
+                                    * ((offsets[j, a] - offsets[i, a]) * per_h)
+                                    * ((offsets[j, b] - offsets[i, b]) * per_h)
                                 )
 
             # N = L D L^T, then correction := N^-1 R0
@@ -146,9 +149,9 @@ class SFDI(BoundaryInterpolator):
             for j in range(n):
                 along = 0.0
                 for a in range(dim):
-                    along += (offsets[j, a] - offsets[i, a]) / h * correction[a]
+                    along += (offsets[j, a] - offsets[i, a]) * per_h * correction[a]
                 balance += out[j] * along
-                out[j] = kernel_values[j] / total - out[j] * along
+                out[j] = kernel_values[j] * share - out[j] * along
                 if j != i:
                     absolute_sum += abs(out[j])
             out[i] += balance
