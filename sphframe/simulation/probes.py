@@ -18,8 +18,9 @@ _NODES, _NODE_WEIGHTS = np.polynomial.legendre.leggauss(9)
 class PressureProbes:
     """Pressure sensors: points, and discs that average over the chord at each height.
 
-    A disc of radius a centred on a wall averages p(s) over its diameter with the chord length as weight,
-    (2 / (pi a^2)) int p(s) sqrt(a^2 - s^2) ds, s along the wall.
+    A disc of radius a centred on a wall averages max(p(s), 0) over its diameter with the chord length as weight,
+    (2 / (pi a^2)) int max(p(s), 0) sqrt(a^2 - s^2) ds, s along the wall. It is an instrument in the wall, from which
+    water parts instead of pulling, as from the ghosts; a point shows the tension that the particles have.
     """
 
     def __init__(self, probes: Sequence[Probe], dim: int) -> None:
@@ -41,12 +42,16 @@ class PressureProbes:
                 weights.append((index, float(chord)))
         self.points = np.array(points).reshape(-1, dim)
         self._average = np.zeros((len(probes), len(points)))
+        self._lowest = np.full(len(points), -np.inf)
         for column, (index, weight) in enumerate(weights):
             self._average[index, column] = weight
+            if probes[index].radius > 0.0:
+                self._lowest[column] = 0.0
 
     def average(self, pressures: Array) -> Array:
         """Pressures (points,) -> one value a probe."""
-        return self._average @ pressures
+        averages: Array = self._average @ np.maximum(pressures, self._lowest)
+        return averages
 
 
 class Gauges:

@@ -23,10 +23,10 @@ def _label(variant: Variant) -> str:
 
 
 def _tasks(quick: bool) -> list[Task]:
-    coarse: dict[str, Any] = (
-        {"particle_spacing": 0.03, "time_step": None, "until": 2.0, "probe_interval": 0.005} if quick else {}
-    )
-    return [run_task(_label(v), "hydrostatic-tank", v, "paper", **coarse) for v in VARIANTS]
+    own: dict[str, Any] = {"time_step": None}
+    if quick:
+        own |= {"particle_spacing": 0.03, "until": 2.0, "probe_interval": 0.005}
+    return [run_task(_label(v), "hydrostatic-tank", v, "paper", **own) for v in VARIANTS]
 
 
 def _figures(dataset: xr.Dataset) -> dict[str, Any]:
@@ -79,7 +79,9 @@ def _chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) 
         [
             f"Water 1 m long and 0.3 m deep at rest, particle spacing {spacing:g} mm, {until:.3g} s; pressures at four"
             " probes on the left wall, P0 in the corner. Errors and standard deviations are in per cent of rho g H,"
-            " over the second half of the run where nothing else is said; the largest of the probes is given.",
+            " over the second half of the run where nothing else is said; the largest of the probes is given."
+            " Time steps are adaptive, with a Courant number of 0.7, about 0.26 ms at the paper's spacing; the paper's"
+            " is 0.1 ms.",
             "Goal of this project for improved Shepard with the balanced lift: mean error below 0.4 %, 0.8 % in the"
             " corner, deviation below 0.25 % to the end." + _goal(found[Variant("improved-shepard", "balanced")]),
         ],

@@ -67,10 +67,6 @@ PAPER = (
 OURS = (
     Variant("improved-shepard", "balanced"),
     Variant("normalized", "balanced"),
-    Variant("mls-linear", "balanced"),
-    Variant("mls-quadratic", "balanced"),
-    Variant("sfdi", "balanced"),
-    Variant("shepard", "mirror"),
     Variant("shepard", "balanced"),
     Variant("mdbc", "balanced"),
     Variant("adami", "balanced"),
