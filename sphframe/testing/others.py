@@ -78,6 +78,13 @@ def check_gradient(kernel: Kernel) -> None:
         f"{title(kernel)}: the gradient function is {centre} at q = 0 and {factor(1e-4)} beside it; return the"
         f" limit w''(0)",
     )
+    of_square = kernel.gradient_of_square_function()
+    for q in np.linspace(0.0, 0.999, 37) * kernel.support:
+        _hold(
+            math.isclose(of_square(float(q * q)), factor(float(q)), rel_tol=1e-9, abs_tol=1e-12 * abs(centre)),
+            f"{title(kernel)}: at q = {q:.6g} the gradient function of q^2 gives {of_square(float(q * q))}, that of q"
+            f" {factor(float(q))}",
+        )
 
 
 def check_compact_support(kernel: Kernel) -> None:
@@ -102,7 +109,7 @@ def check_monotone(kernel: Kernel) -> None:
 
 def check_kernel_compiles(kernel: Kernel) -> None:
     """Compiled and plain Python agree."""
-    for function in (kernel.value_function(), kernel.gradient_function()):
+    for function in (kernel.value_function(), kernel.gradient_function(), kernel.gradient_of_square_function()):
         compiled = compile_part(function)
         for q in np.linspace(0.0, 0.999, 37) * kernel.support:
             _hold(

@@ -2,7 +2,6 @@
 
 import math
 
-import numba
 import numpy as np
 import pytest
 from hypothesis import given
@@ -15,6 +14,7 @@ from sphframe.kernels.fast_exp import fast_exp
 from sphframe.kernels.gaussian import RenormalisedGaussian
 from sphframe.kernels.spline import CubicSpline, QuinticSpline
 from sphframe.kernels.wendland import WendlandC2, WendlandC4
+from sphframe.specialise import compile_part
 
 KERNELS = [RenormalisedGaussian(), WendlandC2(), WendlandC4(), CubicSpline(), QuinticSpline()]
 every_kernel = pytest.mark.parametrize("kernel", KERNELS, ids=lambda kernel: type(kernel).__name__)
@@ -62,9 +62,16 @@ def test_decreases_from_the_centre_to_zero_at_the_cut_off(kernel: Kernel) -> Non
 @every_kernel
 def test_compiled_functions_agree_with_plain_ones(kernel: Kernel) -> None:
     q = np.linspace(0.0, kernel.support, 50, endpoint=False)
-    for function in (kernel.value_function(), kernel.gradient_function()):
-        compiled = numba.njit(function)
+    for function in (kernel.value_function(), kernel.gradient_function(), kernel.gradient_of_square_function()):
+        compiled = compile_part(function)
         assert [compiled(v) for v in q] == pytest.approx([function(v) for v in q], rel=1e-13, abs=1e-15)
+
+
+@every_kernel
+def test_gradient_of_the_square(kernel: Kernel) -> None:
+    q = np.linspace(0.0, kernel.support, 50, endpoint=False)
+    gradient, of_square = kernel.gradient_function(), kernel.gradient_of_square_function()
+    assert [of_square(v * v) for v in q] == pytest.approx([gradient(v) for v in q], rel=1e-13, abs=1e-15)
 
 
 def test_gaussian_constants_of_the_literature() -> None:

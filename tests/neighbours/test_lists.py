@@ -49,6 +49,19 @@ def test_lists_hold_the_pairs_within_the_radius(dim, seed, fluid, ghosts, scale,
         assert sorted(found) == list(np.flatnonzero(near))
 
 
+def test_clusters_are_compact():
+    """Particles that follow each other fill squares, so that their lists are little longer than one particle's."""
+    x, y = np.meshgrid(np.arange(60.0), np.arange(60.0))
+    rows = Columns(2).empty(3600)
+    rows[:, :2] = np.random.default_rng(3).permutation(np.stack([x.ravel(), y.ravel()], axis=1))
+    lists = NeighbourLists(2, 3600, 0, support=3.9, skin=0.39, cluster=8, width=np.sqrt(8.0))
+    rows = rows[lists.sort(rows)]
+    lists.build(rows, np.empty((0, 2)))
+    extent = np.ptp(rows[:, :2].reshape(-1, 8, 2), axis=1)
+    assert np.median(extent.max(axis=1)) <= 3.0
+    assert lists.fluid_counts.mean() < 2.0 * np.pi * lists.radius**2
+
+
 def test_sorting_is_stable():
     columns = Columns(2)
     rows = columns.empty(5)

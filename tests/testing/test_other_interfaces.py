@@ -43,6 +43,13 @@ class Tent(Kernel):
         return (0.75, 7.0 / (4.0 * math.pi), 21.0 / (16.0 * math.pi))[dim - 1] * (self.factor if dim == 3 else 1.0)
 
 
+class Forgetful(Tent):
+    """Its gradient as a function of q^2 is that of q."""
+
+    def gradient_of_square_function(self):
+        return self.gradient
+
+
 @dataclass
 class State(EquationOfState):
     inverse_sign: float = 1.0
@@ -131,6 +138,7 @@ def test_the_right_ones_pass():
         (Tent(value=lambda q: 1e9 * q - 1e9), "moments"),
         (Tent(gradient=lambda q: 5.0 * (1.0 - 0.5 * q) ** 3), "gradient"),
         (Tent(gradient=lambda q: -5.0 * q * (1.0 - 0.5 * q) ** 3), "gradient"),
+        (Forgetful(), "gradient"),
         (Tent(value=lambda q: 1.0 / (1.0 + q)), "compact_support"),
         (Tent(value=lambda q: q * (2.0 - q)), "monotone"),
         (Tent(value=lambda q: 1.0 - q), "monotone"),
