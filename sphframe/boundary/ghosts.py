@@ -88,14 +88,17 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
         mean_offset = local_array(DIM)
         mean_velocity = local_array(DIM)
         for g in range(chunk, ghosts, chunks):  # the wet ghosts are neighbours: dealt out in turn, threads share them
+            px = points[g, 0]
+            py = points[g, 1]
+            pz = points[g, DIM - 1]
             n = 0
             for k in range(counts[g]):
                 j = lists[g, k]
-                dx = rows[j, 0] - points[g, 0]
-                dy = rows[j, 1] - points[g, 1]
+                dx = rows[j, 0] - px
+                dy = rows[j, 1] - py
                 r2 = dx * dx + dy * dy
                 if DIM == 3:
-                    dz = rows[j, 2] - points[g, 2]
+                    dz = rows[j, 2] - pz
                     r2 += dz * dz
                 offsets[n, 0] = dx
                 offsets[n, 1] = dy

@@ -40,7 +40,7 @@ def grid_around(lower: Array, upper: Array, width: float, margin: float) -> Grid
     around it."""
     dim = len(lower)
     origin = np.zeros(3)
-    cell = np.array([width, width, 0.25 * width])
+    cell = np.array([width, width, 0.5 * width])
     shape = [1, 1, 1]
     for k in range(dim):
         axis = 3 - dim + k

@@ -7,6 +7,8 @@ the pairs too many, which lie beyond the kernel support and get no weight. The s
 the skin, so the lists stay complete while no two particles have approached each other by more than the skin.
 """
 
+import math
+
 import numba
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +19,7 @@ __all__ = ["NeighbourLists"]
 
 Array = NDArray[np.float64]
 
-_PARTS = 4
+_PARTS = 2
 """of the rows that are sorted at the same time"""
 
 
@@ -140,7 +142,26 @@ def _cell_range(lower, upper, origin, cell, count):  # type: ignore[no-untyped-d
 @numba.njit(inline="always")
 def _gap(x, lower, upper):  # type: ignore[no-untyped-def]
     """Return the distance from ``x`` to an interval."""
-    return max(max(lower - x, x - upper), 0.0)
+    gap = lower - x if lower - x > x - upper else x - upper
+    return gap if gap > 0.0 else 0.0
+
+
+@numba.njit(inline="always")
+def _box_distance2(rows, j, dim, x0, x1, y0, y1, z0, z1):  # type: ignore[no-untyped-def]
+    """Return the squared distance of row ``j`` from a box; an unsigned ``j`` needs no check for negative numbers."""
+    d2 = _gap(rows[j, 0], x0, x1) ** 2 + _gap(rows[j, 1], y0, y1) ** 2
+    return d2 + _gap(rows[j, 2], z0, z1) ** 2 if dim == 3 else d2
+
+
+@numba.njit(inline="always")
+def _reach(radius, lower, upper, origin, cell, index):  # type: ignore[no-untyped-def]
+    """Return how far along its cells a row may hold what is within ``radius`` of the box ``lower`` .. ``upper``.
+
+    ``index`` is the row's in the other direction, in which the box's edges are given; 0 where it is out of reach.
+    """
+    start = origin + index * cell
+    gap = max(start - upper, lower - (start + cell))
+    return math.sqrt(max(radius * radius - max(gap, 0.0) ** 2, 0.0))
 
 
 @numba.njit(error_model="numpy")
@@ -156,26 +177,15 @@ def _near_any(rows, j, first, last, dim, limit):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(error_model="numpy")
-def _append(rows, first, last, dim, radius, offset, order, begin, end, box, wide, found, members):  # type: ignore[no-untyped-def]
-    """Append to ``members`` what is near ``rows[first:last]``, in the bounding box ``box`` (6,); return the length.
-
-    Candidates are the rows ``offset + order[k]``, or ``k`` itself where ``order`` is empty, for k in begin .. end. The
-    length counts on where the room ends; the last place is scratch.
-    """
-    limit = radius * radius
-    room = members.shape[0] - 1
-    alone = last - first == 1
+def _select(rows, members, begin, end, first, last, dim, limit):  # type: ignore[no-untyped-def]
+    """Keep of ``members[begin:end]`` what is near a member of the cluster, and not a lone particle itself."""
+    kept = begin
     for k in range(begin, end):
-        j = offset + order[k] if order.shape[0] else k
-        d2 = _gap(rows[j, 0], box[0], box[1]) ** 2 + _gap(rows[j, 1], box[2], box[3]) ** 2
-        if dim == 3:
-            d2 += _gap(rows[j, 2], box[4], box[5]) ** 2
-        near = d2 < limit
-        if wide:
-            near = near and _near_any(rows, j, first, last, dim, limit)
-        members[min(found, room)] = j  # stays only if it is near: no branch to be mispredicted
-        found += 1 if near and not (alone and j == first) else 0
-    return found
+        j = members[k]
+        members[kept] = j
+        lone = last - first == 1 and j == first
+        kept += 1 if not lone and _near_any(rows, j, first, last, dim, limit) else 0
+    return kept
 
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
@@ -185,7 +195,8 @@ def _list_particles(  # type: ignore[no-untyped-def]
 ):  # fmt: skip
     """List the neighbours of each cluster; returns the longest list, which must stay below the capacity."""
     reach = radius * (1.0 + 1e-9)
-    fluid_order = ghost_order[:0]
+    limit = radius * radius
+    room = lists.shape[1] - 1  # the last place is scratch
     longest = 0
     for c in numba.prange(counts.shape[0]):
         first = c * cluster
@@ -200,7 +211,7 @@ def _list_particles(  # type: ignore[no-untyped-def]
             y1 = max(y1, rows[i, 1])
             z0 = min(z0, rows[i, dim - 1])
             z1 = max(z1, rows[i, dim - 1])
-        box = (x0, x1, y0, y1, z0, z1)
+        alone = last - first == 1
         wide = max(max(x1 - x0, y1 - y0), z1 - z0) > 1.5 * radius
         if dim == 2:
             a0, a1 = 0, 0
@@ -208,25 +219,35 @@ def _list_particles(  # type: ignore[no-untyped-def]
         else:
             a0, a1 = _cell_range(x0 - reach, x1 + reach, origin[0], cell[0], shape[0])
             b0, b1 = _cell_range(y0 - reach, y1 + reach, origin[1], cell[1], shape[1])
-        c0, c1 = _cell_range(z0 - reach, z1 + reach, origin[2], cell[2], shape[2])
         found = 0
+        members = lists[c]
         for kind in range(2):
             for a in range(a0, a1 + 1):
+                across = _reach(reach, x0, x1, origin[0], cell[0], a) if dim == 3 else reach
                 for b in range(b0, b1 + 1):
+                    if dim == 3:
+                        along = _reach(across, y0, y1, origin[1], cell[1], b)
+                    else:
+                        along = _reach(across, x0, x1, origin[1], cell[1], b)
+                    c0, c1 = _cell_range(z0 - along, z1 + along, origin[2], cell[2], shape[2])
+                    if c1 < c0:
+                        continue
                     row = row_number(shape, a, b)
                     left = cell_number(shape, row, c0)
                     right = cell_number(shape, row, c1)
                     if kind == 0:
-                        found = _append(
-                            rows, first, last, dim, radius, 0, fluid_order,
-                            starts[min(left, right)], starts[max(left, right) + 1], box, wide, found, lists[c],
-                        )  # fmt: skip
+                        begin, end = starts[min(left, right)], starts[max(left, right) + 1]
+                        for j in range(np.uint64(begin), np.uint64(end)):
+                            members[min(found, room)] = j  # stays only if it is near: no branch to be mispredicted
+                            found += 1 if _box_distance2(rows, j, dim, x0, x1, y0, y1, z0, z1) < limit else 0
                     else:
-                        found = _append(
-                            rows, first, last, dim, radius, n, ghost_order,
-                            ghost_starts[min(left, right)], ghost_starts[max(left, right) + 1], box, wide,
-                            found, lists[c],
-                        )  # fmt: skip
+                        begin, end = ghost_starts[min(left, right)], ghost_starts[max(left, right) + 1]
+                        for k in range(np.uint64(begin), np.uint64(end)):
+                            ghost = np.uint64(ghost_order[k]) + np.uint64(n)
+                            members[min(found, room)] = ghost
+                            found += 1 if _box_distance2(rows, ghost, dim, x0, x1, y0, y1, z0, z1) < limit else 0
+            if (wide or alone) and found <= room:
+                found = _select(rows, members, counts[c] if kind == 1 else 0, found, first, last, dim, limit)
             if kind == 0:
                 counts[c] = found
         ghost_counts[c] = found - counts[c]
@@ -251,22 +272,25 @@ def _list_points(points, rows, dim, radius, origin, cell, shape, starts, lists, 
         else:
             a0, a1 = _cell_range(x - reach, x + reach, origin[0], cell[0], shape[0])
             b0, b1 = _cell_range(y - reach, y + reach, origin[1], cell[1], shape[1])
-        c0, c1 = _cell_range(z - reach, z + reach, origin[2], cell[2], shape[2])
         found = 0
+        members = lists[i]
         for a in range(a0, a1 + 1):
+            across = _reach(reach, x, x, origin[0], cell[0], a) if dim == 3 else reach
             for b in range(b0, b1 + 1):
+                if dim == 3:
+                    along = _reach(across, y, y, origin[1], cell[1], b)
+                else:
+                    along = _reach(across, x, x, origin[1], cell[1], b)
+                c0, c1 = _cell_range(z - along, z + along, origin[2], cell[2], shape[2])
+                if c1 < c0:
+                    continue
                 row = row_number(shape, a, b)
                 left = cell_number(shape, row, c0)
                 right = cell_number(shape, row, c1)
-                for j in range(starts[min(left, right)], starts[max(left, right) + 1] if c1 >= c0 else 0):
-                    dx = rows[j, 0] - x
-                    dy = rows[j, 1] - y
-                    d2 = dx * dx + dy * dy
-                    if dim == 3:
-                        dz = rows[j, 2] - z
-                        d2 += dz * dz
-                    lists[i, min(found, room)] = j  # stays only if it is near: no branch to be mispredicted
-                    found += 1 if d2 < limit else 0
+                begin, end = starts[min(left, right)], starts[max(left, right) + 1]
+                for j in range(np.uint64(begin), np.uint64(end)):
+                    members[min(found, room)] = j
+                    found += 1 if _box_distance2(rows, j, dim, x, x, y, y, z, z) < limit else 0
         counts[i] = found
         longest = max(longest, found)
     return longest

@@ -238,7 +238,7 @@ class Simulation:
             self.support,
             SKIN * self.support,
             cluster=LANES,
-            width=LANES ** (1.0 / dim) * spacing,
+            width=0.75 * LANES ** (1.0 / dim) * spacing,
         )
 
     @property
