@@ -6,6 +6,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from sphframe.boundary.conjugate import make_conjugate
 from sphframe.boundary.corners import Corners
 from sphframe.boundary.ghosts import fill_ghosts
 from sphframe.boundary.movement import move_ghosts
@@ -97,6 +98,10 @@ class Boundary:
                 "DENSITY": compile_part(equation_of_state.density_function()),
             },
         )
+        self._make_conjugate = None
+        if not balanced and interpolator.traits.evaluation_point is EvaluationPoint.MIRROR:
+            parts = {"DIM": self.dim, "SUPPORT": kernel.support, "GRADIENT": kernel.gradient}
+            self._make_conjugate = specialise(make_conjugate, parts)
         self._scratch_for(8)
 
     @property
@@ -175,3 +180,7 @@ class Boundary:
             self.velocity, self.driving, lists.support, kernel_scale, reference_density, sound_speed,
             self._offsets, self._columns, self._members, self._lift, self.statuses,
         )  # fmt: skip
+        if self._make_conjugate:
+            self._make_conjugate(
+                rows, lists.fluid_count, lists.points, lists.point_counts, self.reflection, self.velocity, lists.support
+            )

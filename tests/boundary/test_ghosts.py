@@ -137,6 +137,37 @@ def test_velocities_beside_one_face(method, slip):
     np.testing.assert_allclose(velocity[below, 0], tangential, rtol=1e-9, atol=1e-9)
 
 
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("slip", ["free", "no"])
+@pytest.mark.parametrize("method", ["improved-shepard", "normalized", "mls-linear"])
+def test_with_the_mirror_lift_a_wall_under_uniform_pressure_does_no_work(method, slip, dim):
+    """sum_j V_j (P grad W_jG).(u_j + u_G - 2 u_wall) = 0 of every ghost, P onto what it reverses; corners, too."""
+    basin = Basin(method, dim, lift="mirror", slip=slip, body=Still(velocity=(0.5, -0.25, 0.125)))
+    c = basin.columns
+    fluid = basin.rows[: basin.n]
+    fluid[:, c.velocity] = np.random.default_rng(1).normal(size=(basin.n, dim))
+    _, position, velocity, _, _ = basin.fill()
+    offset = fluid[:, c.position] - position[:, None]  # the wall turns, too, in 2-D
+    q = np.linalg.norm(offset, axis=2) / basin.h
+    slope = np.exp(-(q**2)) * (q < basin.kernel.support) * SPACING**dim
+    reversed_part = 0.5 * (np.eye(dim) - basin.boundary.reflection)
+    side = np.einsum("gj,gde,gje->gjd", slope, reversed_part, offset)
+    power = (side * (fluid[:, c.velocity] + (velocity - 2.0 * basin.boundary.velocity)[:, None])).sum(axis=(1, 2))
+    reached = slope.any(axis=1)
+    assert reached.sum() > 0.5 * len(reached)
+    np.testing.assert_allclose(power, 0.0, atol=1e-12 * np.abs(side).sum(axis=(1, 2)).max())
+
+
+@pytest.mark.parametrize("method", ["improved-shepard", "normalized", "mls-linear"])
+def test_with_the_mirror_lift_a_uniform_flow_is_mirrored(method):
+    basin = Basin(method, lift="mirror")
+    c = basin.columns
+    basin.rows[: basin.n, c.velocity] = [3.0, -2.0]
+    _, position, velocity, _, _ = basin.fill()
+    below = (position[:, 1] < 0.0) & (np.abs(position[:, 0] - 0.6) < 0.15)
+    np.testing.assert_allclose(velocity[below], np.broadcast_to([3.0, 2.0], velocity[below].shape), rtol=1e-9)
+
+
 def test_a_wall_does_not_pull():
     basin = Basin("normalized")
     basin.rows[: basin.n, basin.columns.pressure] = -1e5
