@@ -57,6 +57,7 @@ class Boundary:
         support: float,
         no_slip: bool,
         balanced: bool,
+        corrected: bool,
     ) -> None:
         drawn = wall_ghosts(tuple(walls), spacing, int(np.ceil(support / spacing - 1e-9)))
         self.dim = drawn.position.shape[1]
@@ -91,6 +92,7 @@ class Boundary:
                 "DIM": self.dim,
                 "SUPPORT": kernel.support,
                 "BALANCED": balanced or at_ghost,
+                "SCALED": balanced and corrected,
                 "EXTRAPOLATED": interpolator.traits.evaluation_point is EvaluationPoint.EXTRAPOLATED,
                 "VALUE": kernel.value,
                 "WEIGHTS": interpolator.point_weights(kernel, self.dim),
@@ -99,8 +101,8 @@ class Boundary:
             },
         )
         self._make_conjugate = None
-        if not balanced and interpolator.traits.evaluation_point is EvaluationPoint.MIRROR:
-            parts = {"DIM": self.dim, "SUPPORT": kernel.support, "GRADIENT": kernel.gradient}
+        if corrected and not balanced and interpolator.traits.evaluation_point is EvaluationPoint.MIRROR:
+            parts = {"DIM": self.dim, "SUPPORT": kernel.support, "GRADIENT": kernel.gradient_of_square}
             self._make_conjugate = specialise(make_conjugate, parts)
         self._scratch_for(8)
 

@@ -9,11 +9,11 @@ dp/dn = rho (f - a_wall).n::
     velocity        u_G = u_wall + [(1 - s)/2 + (1 + s)/2 S] (sum_j Phi_j u_j - u_wall)
 
 S is the reflection of the wall for free slip and -1 for no slip: it keeps some components of the relative velocity
-and reverses the others, which vanish at the wall. With the balanced lift those are scaled by s = d / sum_j Phi_j d_j,
-d the distance from the wall: exact, for any weights that sum to one, for a velocity that grows linearly from the
-wall. With the mirror lift, and where the method evaluates at the ghost, s = 1. A wall does not pull: p_G is at least
-zero. The density follows from the inverse equation of state. A point without neighbours is DRY: p_G = 0, u_G =
-u_wall.
+and reverses the others, which vanish at the wall. With the balanced lift and ``ghost_velocity = "corrected"`` those are
+scaled by s = d / sum_j Phi_j d_j, d the distance from the wall: exact, for any weights that sum to one, for a velocity
+that grows linearly from the wall. Else, and where the method evaluates at the ghost, s = 1; for the correction with the
+mirror lift see :mod:`sphframe.boundary.conjugate`. A wall does not pull: p_G is at least zero. The density follows from
+the inverse equation of state. A point without neighbours is DRY: p_G = 0, u_G = u_wall.
 
 Why s: weights of zeroth order sample the fluid further from the wall than the mirror point lies. The ghosts then
 answer too much normal velocity, the divergence at the wall is wrong, and the first layer's pressure drifts (in the
@@ -42,6 +42,7 @@ __all__ = ["fill_ghosts"]
 DIM = 2
 SUPPORT = 3.0  # R/h
 BALANCED = True
+SCALED = True
 EXTRAPOLATED = False
 
 
@@ -153,7 +154,7 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
             pressure = max(pressure, 0.0)
 
             slope = 1.0  # s above; the lift is 2 d n, and d_j = d - (x_j - x_M).n
-            if BALANCED and n > 0:
+            if SCALED and n > 0:
                 span = 0.0
                 moment = 0.0
                 for d in range(DIM):

@@ -181,6 +181,9 @@ class Case(BaseModel, ABC):
     hydrostatic_lift: Literal["balanced", "mirror"] = quantity(
         "balanced", "1", "how the hydrostatic pressure difference to the ghost is added"
     )
+    ghost_velocity: Literal["corrected", "interpolated"] = quantity(
+        "corrected", "1", "velocity of the ghosts: corrected for what the weights miss at the wall, or as interpolated"
+    )
     interpolator: Component = quantity(Component(name="improved-shepard"), "1", "boundary interpolation method")
     kernel: Component = quantity(Component(name="gaussian"), "1", "smoothing kernel")
     equation_of_state: Component = quantity(Component(name="linear"), "1", "equation of state")

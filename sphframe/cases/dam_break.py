@@ -48,6 +48,7 @@ class DamBreak(Case):
             "smoothing_length_ratio": 1.3,
             "time_step": 1e-4,
             "hydrostatic_lift": "mirror",
+            "ghost_velocity": "interpolated",
             "frame_interval": 0.02,
             "probe_interval": 0.001,
         },

@@ -34,6 +34,7 @@ class HydrostaticTank(Case):
             "time_step": 1e-4,
             "until": 35.0,
             "hydrostatic_lift": "mirror",
+            "ghost_velocity": "interpolated",
             "frame_interval": 0.5,
             "probe_interval": 0.01,
         },

@@ -43,6 +43,7 @@ class SolitaryWaveFixedWall(SolitaryWaveFlume):
             "smoothing_length_ratio": 1.3,
             "time_step": 1e-4,
             "hydrostatic_lift": "mirror",
+            "ghost_velocity": "interpolated",
             "probe_heights": (0.05, 0.15),
         },
     }

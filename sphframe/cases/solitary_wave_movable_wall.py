@@ -38,6 +38,7 @@ class SolitaryWaveMovableWall(SolitaryWaveFlume):
             "time_step": 5e-4,
             "sound_speed": 10.0 * (9.81 * 0.2) ** 0.5,
             "hydrostatic_lift": "mirror",
+            "ghost_velocity": "interpolated",
             "wall_mass": 250.0,
             "spring_stiffness": 10.0,
             "threshold_ratio": 1.1,

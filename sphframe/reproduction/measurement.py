@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 
 from sphframe.interfaces import Status
 from sphframe.output.provenance import software
-from sphframe.reproduction.tasks import Task, Tell, made_with
+from sphframe.reproduction.tasks import Task, Tell, made_with, wall_boundary
 from sphframe.simulation import Simulation
 
 __all__ = ["CostTask", "machine"]
@@ -67,9 +67,7 @@ class CostTask(Task):
         return {**super().recipe(), **own}
 
     def _case_of(self, label: str) -> Any:
-        interpolator, lift = self.methods[label]
-        changed = {"interpolator": dict(interpolator), "hydrostatic_lift": lift}
-        return type(self.case())(**{**self.parameters, **changed})
+        return type(self.case())(**{**self.parameters, **wall_boundary(*self.methods[label])})
 
     def perform(self, path: Path, threads: int, tell: Tell) -> None:
         """Measure, and write the times."""

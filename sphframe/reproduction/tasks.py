@@ -29,7 +29,7 @@ from sphframe.registry import create, load
 from sphframe.simulation.run import resume, run
 from sphframe.specialise import fingerprint
 
-__all__ = ["UNFINISHED", "RunTask", "Task", "Tell", "lock_of", "made_with", "slug", "work"]
+__all__ = ["UNFINISHED", "RunTask", "Task", "Tell", "lock_of", "made_with", "slug", "wall_boundary", "work"]
 
 UNFINISHED = "unfinished"
 """folder, beside the results, of what is being computed or was interrupted"""
@@ -174,6 +174,15 @@ def made_with(case: Case) -> dict[str, str]:
     method = create("interpolators", case.interpolator.name, **case.interpolator.options)
     kernel = compiled_kernel(create("kernels", case.kernel.name, **case.kernel.options), case.dimension)
     return {**distributions(case), "method": fingerprint(method.point_weights(kernel, case.dimension))}
+
+
+def wall_boundary(interpolator: Mapping[str, Any], lift: str) -> dict[str, Any]:
+    """Return the parameters of a case that make its boundary the paper's (``mirror``) or ours (``balanced``)."""
+    return {
+        "interpolator": dict(interpolator),
+        "hydrostatic_lift": lift,
+        "ghost_velocity": "interpolated" if lift == "mirror" else "corrected",
+    }
 
 
 def lock_of(unfinished: Path) -> Path:

@@ -112,6 +112,7 @@ class Simulation:
             support=self.support,
             no_slip=case.slip == "no",
             balanced=case.hydrostatic_lift == "balanced",
+            corrected=case.ghost_velocity == "corrected",
         )
         self.particle_count = self.fluid_count = len(position)
         self.ghost_count = self.boundary.count

@@ -42,6 +42,7 @@ def check_solver_agrees(method: BoundaryInterpolator, dim: int) -> None:
         spacing=spacing,
         support=support,
         no_slip=False,
+        corrected=True,
         balanced=True,
     )
     columns = Columns(dim)

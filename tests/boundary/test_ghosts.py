@@ -32,7 +32,7 @@ class Still(RigidBody):
 class Basin:
     """A box of fluid with every side walled but the top, particles jittered."""
 
-    def __init__(self, method, dim=2, *, lift="balanced", slip="free", body=None, jitter=0.2):
+    def __init__(self, method, dim=2, *, lift="balanced", slip="free", body=None, jitter=0.2, corrected=True):
         shape = RenormalisedGaussian()
         self.kernel = compiled_kernel(shape, dim)
         self.dim, self.h = dim, 1.3 * SPACING
@@ -49,6 +49,7 @@ class Basin:
             spacing=SPACING,
             support=self.kernel.support * self.h,
             no_slip=slip == "no",
+            corrected=corrected,
             balanced=lift == "balanced",
         )
         position = lattice(BoxRegion(lower=(0.0,) * dim, upper=(side,) * dim), SPACING)

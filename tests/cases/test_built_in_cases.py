@@ -40,6 +40,7 @@ def test_paper_preset_has_the_paper_s_particles(case: type[Case], preset: str, p
     assert sum(len(lattice(region, made.particle_spacing)) for region in made.scene().fluid) == particles
     assert made.time_step == 1e-4
     assert made.hydrostatic_lift == "mirror"
+    assert made.ghost_velocity == "interpolated"
     assert made.smoothing_length_ratio == 1.3
 
 

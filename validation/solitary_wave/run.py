@@ -30,6 +30,7 @@ HELD = {
     "sound_speed": 10.0 * (9.81 * 0.2) ** 0.5,
     "time_step": 5e-4,
     "hydrostatic_lift": "mirror",
+    "ghost_velocity": "interpolated",
     "until": 4.0,
     "probe_interval": 0.002,
     "frame_interval": 0.1,

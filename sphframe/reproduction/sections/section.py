@@ -10,7 +10,7 @@ import xarray as xr
 from sphframe.cases import CaseWarning, load_case
 from sphframe.reproduction.chapter import Chapter
 from sphframe.reproduction.series import Reference
-from sphframe.reproduction.tasks import RunTask, Task
+from sphframe.reproduction.tasks import RunTask, Task, wall_boundary
 
 __all__ = ["OURS", "PAPER", "Section", "Variant", "run_task"]
 
@@ -76,7 +76,7 @@ OURS = (
 
 def run_task(label: str, case: str, variant: Variant, preset: str | None, **parameters: Any) -> RunTask:
     """Return the run of ``case`` with ``variant``; what the case warns of is what the paper does."""
-    chosen = {"interpolator": variant.interpolator, "hydrostatic_lift": variant.lift, **parameters}
+    chosen = {**wall_boundary(variant.interpolator, variant.lift), **parameters}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", CaseWarning)
         return RunTask.of(label, load_case(case, preset, chosen))
