@@ -7,9 +7,9 @@ import pytest
 from typer.testing import CliRunner
 
 from sphframe.benchmark import bench as benchmark
-from sphframe.benchmark.report import Report
 from sphframe.benchmark.memory import MemoryCost
 from sphframe.benchmark.methods import MethodCost
+from sphframe.benchmark.report import Report
 from sphframe.benchmark.start_up import StartUp
 from sphframe.benchmark.timing import Spread
 from sphframe.cli import bench as command
