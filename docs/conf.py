@@ -13,7 +13,8 @@ extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphin
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3
 include_patterns = [
-    "index.md", "commands.md", "methods.md", "tutorial_plugin.md", "api.md", "comparison.md", "development.md"
+    "index.md", "commands.md", "methods.md", "tutorial_plugin.md", "api.md", "comparison.md", "performance.md",
+    "development.md",
 ]  # fmt: skip
 autodoc_typehints = "description"
 autodoc_member_order = "alphabetical"

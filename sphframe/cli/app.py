@@ -35,6 +35,7 @@ sphframe {version}: a laboratory for wall boundaries in SPH free-surface flow
   sphframe new-plugin           start a boundary interpolation method of your own
   sphframe verify METHOD        test a method against what it promises
   sphframe doctor               check this installation
+  sphframe bench                measure its speed, memory and start-up on this machine
 
 sphframe COMMAND --help explains a command."""
 
@@ -361,6 +362,33 @@ def _new_plugin(
     print(f'  pip install -e "{root}[test]"')
     print(f"  sphframe verify {name}")
     print(f"  sphframe run dam-break --interpolator {name}")
+
+
+@app.command("bench")
+def _bench(
+    json_file: Annotated[
+        Path | None, typer.Option("--json", metavar="FILE", help="write everything to this file as well")
+    ] = None,
+    particles: Annotated[
+        list[str] | None,
+        typer.Option(metavar="N", help="fluid particles; repeatable, or with commas; by default 45000"),
+    ] = None,
+    threads: Annotated[
+        list[str] | None,
+        typer.Option(metavar="N", help="threads; repeatable, or with commas; by default 1 and 2"),
+    ] = None,
+    only: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="SECTION",
+            help="rest, developed, 3d, methods, memory or start-up; repeatable, or with commas",
+        ),
+    ] = None,
+) -> None:
+    """Measure speed, memory and start-up on this machine, beside bare reference loops (some four minutes)."""
+    from sphframe.cli.bench import bench_command
+
+    bench_command(particles=particles or [], threads=threads or [], only=only or [], json_file=json_file)
 
 
 @app.command("doctor")

@@ -47,6 +47,13 @@ BAD: list[tuple[list[str], str]] = [
     (["show", "dam-brake"], "did you mean 'dam-break'"),
     (["show", "missing.toml"], "there is no such file"),
     (["show", "dam-break", "--preset", "x"], "has no preset 'x'"),
+    (["bench", "--particles", "many"], "--particles many: give whole numbers"),
+    (["bench", "--particles", "3000,"], "give whole numbers"),
+    (["bench", "--particles", "10"], "particles = 10: give at least 100"),
+    (["bench", "--threads", "1,0"], "threads = 0"),
+    (["bench", "--only", "rest,speed"], "there is no section 'speed' to measure; the sections are rest, developed, 3d"),
+    (["bench", "--json", "no/such/folder/bench.json"], "give a file in a folder that exists"),
+    (["bench", "--json", "."], "give a file in a folder that exists"),
     (["list", "methods"], "'methods' is not a kind of component"),
     (["list", "kernel"], "did you mean 'kernels'"),
 ]

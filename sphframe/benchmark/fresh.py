@@ -1,0 +1,41 @@
+"""Benchmark: measurements in a fresh process, where nothing is loaded, compiled or in memory yet."""
+
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from sphframe.errors import SimulationError
+
+__all__ = ["Fresh", "run_fresh"]
+
+
+class Fresh(NamedTuple):
+    """What a fresh process has printed, as JSON, and how long it took from its start to its end, s."""
+
+    found: Any
+    seconds: float
+
+
+def run_fresh(code: str, environment: Mapping[str, str] | None = None) -> Fresh:
+    """Run Python ``code`` that prints one line of JSON, with additions to the ``environment``.
+
+    Raises
+    ------
+    SimulationError: when it fails.
+    """
+    began = time.perf_counter()
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, **(environment or {})},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    elapsed = time.perf_counter() - began
+    if done.returncode:
+        raise SimulationError(f"a fresh Python could not be measured: {(done.stderr.strip() or 'no message')[-500:]}")
+    return Fresh(json.loads(done.stdout.splitlines()[-1]), elapsed)

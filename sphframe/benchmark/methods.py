@@ -1,0 +1,124 @@
+"""Benchmark: what each interpolation method costs, alone and within a step, on the same state."""
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from sphframe.benchmark.flow import dam_break, warm_up
+from sphframe.benchmark.stopwatch import Stopwatch
+from sphframe.benchmark.timing import Spread, loops_for, seconds
+from sphframe.cases import Case
+from sphframe.interfaces import Status
+from sphframe.registry import check
+from sphframe.simulation import Simulation
+
+__all__ = ["MethodCost", "Side", "measure_methods", "side_by_side", "wet_points"]
+
+_STEPS = 8
+"""steps timed at once: among them is the share of those that search for neighbours anew"""
+_SHORTEST = 0.004
+"""s: what is timed at once, so that the clock's resolution does not matter"""
+
+
+@dataclass(frozen=True)
+class Side:
+    """Methods side by side: (methods, repeats) s for filling all ghosts once and for one whole step.
+
+    ``busy``: how much longer the wall's time was than the processor's.
+    """
+
+    simulations: Mapping[str, Simulation]
+    fill: NDArray[np.float64]
+    step: NDArray[np.float64]
+    busy: float
+
+
+@dataclass(frozen=True)
+class MethodCost:
+    """One thread, processor's time, in s: filling all ghosts once, a whole step.
+
+    ``point``: interpolating to one wet point; ``share``: that of the boundary in a step.
+    """
+
+    method: str
+    particles: int
+    points: int
+    neighbours: float
+    fill: Spread
+    step: Spread
+    point: Spread
+    share: Spread
+
+
+def side_by_side(
+    cases: Mapping[str, Case], state: Mapping[str, Any], repeats: int, tell: Callable[[float], None]
+) -> Side:
+    """Time cases that differ in their boundary from the same ``state``, with one thread.
+
+    Compilation and the first steps are not timed. The cases take turns in each repeat, so that whatever else the
+    machine does falls on all alike. The time is that of the processor, which on a quiet machine is the time on the
+    wall.
+    """
+    simulations = {}
+    for label, case in cases.items():
+        simulation = Simulation(case, threads=1)
+        simulation.restore(state)
+        warm_up(simulation)
+        simulations[label] = simulation
+    fill = np.zeros((len(simulations), repeats))
+    step = np.zeros((len(simulations), repeats))
+    clock = time.process_time
+    loops = {label: loops_for(s.system.fill_ghosts, _SHORTEST, clock) for label, s in simulations.items()}
+    wall, processor = time.perf_counter(), time.process_time()
+    for repeat in range(repeats):
+        for k, (label, simulation) in enumerate(simulations.items()):
+            fill[k, repeat] = seconds(simulation.system.fill_ghosts, loops[label], clock)
+            step[k, repeat] = seconds(simulation.advance, _STEPS, clock)
+        tell((repeat + 1) / repeats)
+    busy = (time.perf_counter() - wall) / max(time.process_time() - processor, 1e-9)
+    return Side(simulations, fill, step, busy)
+
+
+def wet_points(simulation: Simulation) -> tuple[int, float]:
+    """Number of wet ghosts and the mean number of particles within the support of their evaluation points."""
+    boundary = simulation.boundary
+    wet = boundary.points[boundary.statuses != Status.DRY]
+    if not len(wet):
+        return 0, 0.0
+    tree = cKDTree(simulation.fields().position)
+    return len(wet), float(np.mean(tree.query_ball_point(wet, simulation.support, return_length=True)))
+
+
+def measure_methods(particles: int, repeats: int, tell: Callable[[str, float | None], None]) -> list[MethodCost]:
+    """Measure all interpolation methods that are installed and load, on the two-dimensional dam break at rest."""
+    label = f"interpolation methods, {particles:,} particles"
+    tell(f"{label}: setting up", None)
+    names = [entry.name for entry in check("interpolators") if entry.error is None]
+    state = Simulation(dam_break(particles, 2), threads=1).state()
+    cases = {name: dam_break(particles, 2, interpolator=name) for name in names}
+    side = side_by_side(cases, state, repeats, lambda part: tell(f"{label}: measuring", part))
+    costs = []
+    for name, fill, step in zip(names, side.fill, side.step, strict=True):
+        simulation = side.simulations[name]
+        points, neighbours = wet_points(simulation)
+        fills = _fills_of_a_step(simulation)
+        filling, whole = Spread(tuple(map(float, fill))), Spread(tuple(map(float, step)))
+        costs.append(
+            MethodCost(
+                name, simulation.fluid_count, points, neighbours, filling, whole,
+                filling.times(1.0 / points), filling.times(fills).over(whole),
+            )
+        )  # fmt: skip
+    return costs
+
+
+def _fills_of_a_step(simulation: Simulation) -> int:
+    stopwatch = Stopwatch()
+    stopwatch.watch(simulation.system, "fill_ghosts", "boundary")
+    simulation.advance()
+    return stopwatch.calls["fill_ghosts"]

@@ -1,0 +1,134 @@
+"""Benchmark: all measurements in one report, as tables are made of it and as JSON keeps it."""
+
+import contextlib
+import dataclasses
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numba as typed_numba
+
+from sphframe.benchmark.machine import machine
+from sphframe.benchmark.memory import MemoryCost, measure_memory
+from sphframe.benchmark.methods import MethodCost, measure_methods
+from sphframe.benchmark.start_up import StartUp, measure_start_up
+from sphframe.benchmark.steps import State, StepCost, measure_steps
+from sphframe.benchmark.timing import Spread
+from sphframe.errors import InputError
+
+__all__ = ["SECTIONS", "Report", "bench", "check_request"]
+
+numba: Any = typed_numba  # its settings have no types
+
+SECTIONS = ("rest", "developed", "3d", "methods", "memory", "start-up")
+"""what can be measured alone"""
+_FLOWS: tuple[tuple[str, int, State], ...] = (
+    ("rest", 2, "rest"),
+    ("developed", 2, "developed"),
+    ("3d", 3, "rest"),
+)
+FORMAT = 1
+_FEWEST, _MOST_DEVELOPED = 100, 50_000
+_REPEATS = 7
+
+
+@dataclass(frozen=True)
+class Report:
+    """What was measured, on what, and with what."""
+
+    machine: dict[str, str]
+    particles: tuple[int, ...]
+    threads: tuple[int, ...]
+    steps: list[StepCost] = field(default_factory=list)
+    methods: list[MethodCost] = field(default_factory=list)
+    memory: list[MemoryCost] = field(default_factory=list)
+    start_up: StartUp | None = None
+
+    def as_data(self) -> dict[str, Any]:
+        """Return all of it for JSON: times in s, memory in bytes; each :class:`Spread` with its samples."""
+        return {"format": FORMAT, **{f.name: _data(getattr(self, f.name)) for f in dataclasses.fields(self)}}
+
+
+def _data(value: Any) -> Any:
+    if isinstance(value, Spread):
+        found = {"median": value.median, "min": value.minimum, "max": value.maximum}
+        return {**found, "samples": list(value.samples)}
+    if dataclasses.is_dataclass(value):
+        return {f.name: _data(getattr(value, f.name)) for f in dataclasses.fields(value)}
+    if isinstance(value, dict):
+        return {name: _data(one) for name, one in value.items()}
+    return [_data(one) for one in value] if isinstance(value, list | tuple) else value
+
+
+def _machine() -> dict[str, str]:
+    """What all was measured on, the threading layer included once a parallel loop has run."""
+    found = {**machine(), "threads at most": str(numba.config.NUMBA_NUM_THREADS)}
+    with contextlib.suppress(ValueError):
+        found["threading layer"] = numba.threading_layer()
+    return found
+
+
+def check_request(particles: Sequence[int], threads: Sequence[int], only: Collection[str]) -> None:
+    """Check what is asked for, before anything is measured.
+
+    Raises
+    ------
+    InputError: when a number is out of bounds or a section is unknown.
+    """
+    for count in particles:
+        if count < _FEWEST:
+            raise InputError(f"particles = {count}: give at least {_FEWEST}, such as 45000")
+    available = numba.config.NUMBA_NUM_THREADS
+    for count in threads:
+        if not 1 <= count <= available:
+            raise InputError(f"threads = {count}, but this machine offers 1 to {available}")
+    for name in only:
+        if name not in SECTIONS:
+            raise InputError(f"there is no section {name!r} to measure; the sections are {', '.join(SECTIONS)}")
+
+
+def bench(
+    particles: Sequence[int] = (45_000,),
+    threads: Sequence[int] = (),
+    only: Collection[str] = (),
+    *,
+    repeats: int = _REPEATS,
+    tell: Callable[[str, float | None], None] = lambda text, part: None,
+) -> Report:
+    """Measure what sphframe costs on this machine.
+
+    Parameters
+    ----------
+    particles: numbers of fluid particles of the dam break, roughly.
+    threads: numbers of threads; by default 1 and, where there are as many, 2.
+    only: some of :data:`SECTIONS`; by default all, with developed flow up to 50,000 particles.
+    repeats: samples of each time.
+    tell: is told what is being done and the part of it that is done, if known.
+
+    Raises
+    ------
+    InputError: as :func:`check_request` does.
+    """
+    check_request(particles, threads, only)
+    before = numba.get_num_threads()
+    counts = sorted(set(threads)) or [n for n in (1, 2) if n <= numba.config.NUMBA_NUM_THREADS]
+    wanted = set(only or SECTIONS)
+    flows = [(dim, state) for name, dim, state in _FLOWS if name in wanted]
+    try:
+        steps = [
+            cost
+            for count in particles
+            for dim, state in flows
+            if state != "developed" or count <= _MOST_DEVELOPED or "developed" in only
+            for cost in measure_steps(count, dim, state, counts, repeats, tell)
+        ]
+        methods = [cost for count in particles if "methods" in wanted for cost in measure_methods(count, repeats, tell)]
+        memory = []
+        for count in particles if "memory" in wanted else ():
+            for dim in (2, 3):
+                tell(f"memory, {dim}-D, {count:,} particles", None)
+                memory.append(measure_memory(count, dim))
+        start_up = measure_start_up(repeats, tell) if "start-up" in wanted else None
+    finally:
+        numba.set_num_threads(before)
+    return Report(_machine(), tuple(particles), tuple(counts), steps, methods, memory, start_up)
