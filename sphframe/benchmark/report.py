@@ -11,6 +11,7 @@ import numba as typed_numba
 from sphframe.benchmark.machine import machine
 from sphframe.benchmark.memory import MemoryCost, measure_memory
 from sphframe.benchmark.methods import MethodCost, measure_methods
+from sphframe.benchmark.peak import Peak, measure_peak
 from sphframe.benchmark.start_up import StartUp, measure_start_up
 from sphframe.benchmark.steps import State, StepCost, measure_steps
 from sphframe.benchmark.timing import Spread
@@ -20,7 +21,7 @@ __all__ = ["SECTIONS", "Report", "bench", "check_request"]
 
 numba: Any = typed_numba  # its settings have no types
 
-SECTIONS = ("rest", "developed", "3d", "methods", "memory", "start-up")
+SECTIONS = ("peak", "rest", "developed", "3d", "methods", "memory", "start-up")
 """what can be measured alone"""
 _FLOWS: tuple[tuple[str, int, State], ...] = (
     ("rest", 2, "rest"),
@@ -39,6 +40,7 @@ class Report:
     machine: dict[str, str]
     particles: tuple[int, ...]
     threads: tuple[int, ...]
+    peak: Peak | None = None
     steps: list[StepCost] = field(default_factory=list)
     methods: list[MethodCost] = field(default_factory=list)
     memory: list[MemoryCost] = field(default_factory=list)
@@ -115,6 +117,8 @@ def bench(
     wanted = set(only or SECTIONS)
     flows = [(dim, state) for name, dim, state in _FLOWS if name in wanted]
     try:
+        tell("peak", None)
+        peak = measure_peak(repeats) if "peak" in wanted else None
         steps = [
             cost
             for count in particles
@@ -131,4 +135,4 @@ def bench(
         start_up = measure_start_up(repeats, tell) if "start-up" in wanted else None
     finally:
         numba.set_num_threads(before)
-    return Report(_machine(), tuple(particles), tuple(counts), steps, methods, memory, start_up)
+    return Report(_machine(), tuple(particles), tuple(counts), peak, steps, methods, memory, start_up)

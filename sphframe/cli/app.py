@@ -381,7 +381,7 @@ def _bench(
         list[str] | None,
         typer.Option(
             metavar="SECTION",
-            help="rest, developed, 3d, methods, memory or start-up; repeatable, or with commas",
+            help="peak, rest, developed, 3d, methods, memory or start-up; repeatable, or with commas",
         ),
     ] = None,
 ) -> None:

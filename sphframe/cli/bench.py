@@ -79,6 +79,9 @@ def _tables(report: Report) -> Iterator[Table]:
     machine = Table(box=None, show_header=False, pad_edge=False)
     for name, value in report.machine.items():
         machine.add_row(name, value)
+    if report.peak is not None:
+        machine.add_row("multiply-adds of a thread, G/s", _text(report.peak.multiply_adds, 1e-9))
+        machine.add_row("memory read by a thread, GB/s", _text(report.peak.bytes_read, 1e-9))
     yield machine
     if report.steps:
         yield _steps(report)

@@ -19,7 +19,7 @@ from sphframe.geometry import lattice, lattice_cell, wall_panels
 from sphframe.interfaces import EquationOfState, Kernel, Motion, Status
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
-from sphframe.physics import LANES, sample_points
+from sphframe.physics import LANES, invert_pressure, sample_points
 from sphframe.registry import create
 from sphframe.simulation.guards import check_promises, check_time_step, naming_component, naming_hook, watch
 from sphframe.simulation.interruption import Interruption, deferred_interruption
@@ -152,7 +152,8 @@ class Simulation:
         n, ghost_volume = self.fluid_count, case.particle_spacing**case.dimension
         rows[:n, columns.position] = position
         rows[:n, columns.pressure] = pressure
-        rows[:n, columns.density] = [density(p, case.reference_density, self.sound_speed) for p in pressure]
+        invert = specialise(invert_pressure, {"DIM": case.dimension, "DENSITY": density}, parallel=False)
+        invert(rows, n, case.reference_density, self.sound_speed)
         rows[:n, columns.volume] = volumes
         rows[:n, columns.mass] = rows[:n, columns.density] * volumes
         rows[n:, columns.density] = case.reference_density

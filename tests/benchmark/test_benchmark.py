@@ -15,6 +15,7 @@ from sphframe.benchmark.flow import DEVELOPED, dam_break, run_to_developed_flow
 from sphframe.benchmark.fresh import Fresh, run_fresh
 from sphframe.benchmark.memory import array_bytes, measure_here
 from sphframe.benchmark.methods import measure_methods
+from sphframe.benchmark.peak import _multiply_add, _read, measure_peak
 from sphframe.benchmark.reference import BareLoops
 from sphframe.benchmark.stopwatch import PARTS, Stopwatch, watch_steps
 from sphframe.benchmark.timing import Spread, loops_for, seconds
@@ -290,3 +291,18 @@ def test_a_request_out_of_bounds_is_refused(
 
 def test_every_section_can_be_asked_for() -> None:
     check_request([3000], [1], SECTIONS)
+
+
+# peak
+
+
+def test_peak_does_the_arithmetic_that_it_times():
+    # every chain x -> x/2 + 1 tends to 2, and the sum of what is read is that of the array
+    assert _multiply_add(100) == pytest.approx(2.0 * 128)
+    assert _read(np.arange(256.0).reshape(2, 128)) == sum(range(256))
+
+
+def test_peak_has_a_sample_a_repeat():
+    peak = measure_peak(2)
+    assert len(peak.multiply_adds.samples) == len(peak.bytes_read.samples) == 2
+    assert min(*peak.multiply_adds.samples, *peak.bytes_read.samples) > 0.0
