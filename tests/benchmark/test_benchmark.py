@@ -178,7 +178,7 @@ def test_all_windows_make_the_same_steps() -> None:
 def test_a_report_is_json(report: Report) -> None:
     data = json.loads(json.dumps(report.as_data()))
     assert data["format"] == 1
-    assert set(data) == {"format", "machine", "particles", "threads", "steps", "methods", "memory", "start_up"}
+    assert set(data) == {"format", "machine", "particles", "threads", "peak", "steps", "methods", "memory", "start_up"}
     assert {"processor", "cores", "threading layer", "numba", "python"} <= set(data["machine"])
     (cost,) = data["steps"]
     assert (cost["state"], cost["dimension"], cost["threads"]) == ("rest", 2, 1)
