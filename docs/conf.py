@@ -1,5 +1,6 @@
 """Configuration of the documentation: ``sphinx-build -W docs SITE``."""
 
+import os
 import re
 
 import sphframe
@@ -9,13 +10,19 @@ author = "The sphframe developers"
 version = release = sphframe.__version__
 html_theme = "furo"
 html_title = f"sphframe {version}"
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.viewcode"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.viewcode"]
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3
 include_patterns = [
-    "index.md", "commands.md", "methods.md", "tutorial_plugin.md", "api.md", "comparison.md", "performance.md",
+    "index.md", "commands.md", "methods.md", "theory/*.md", "gallery.md", "notebooks/*.ipynb",
+    "tutorial_plugin.md", "api.md", "comparison.md", "performance.md",
     "development.md",
 ]  # fmt: skip
+nb_execution_mode = os.environ.get("SPHFRAME_DOCS_NOTEBOOKS", "force")  # "off" builds the pages without running them
+nb_execution_raise_on_error = True
+nb_execution_in_temp = True
+nb_execution_timeout = 600
+nb_merge_streams = True
 autodoc_typehints = "description"
 autodoc_member_order = "alphabetical"
 toc_object_entries_show_parents = "hide"

@@ -41,6 +41,26 @@ def test_commands_exist() -> None:
         assert CliRunner().invoke(app, [command, "--help"]).exit_code == 0, command
 
 
+def test_commands_run_in_their_order(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """At tiny settings; ``compare`` and ``reproduce``, which run many cases, are tested elsewhere."""
+    monkeypatch.chdir(tmp_path)
+    lines = re.findall(r"^    (?:uv run )?sphframe (.*?)(?: +# .*)?$", TEXT, flags=re.MULTILINE)
+    tiny = ["--set", "particle_spacing=0.06", "--until", "0.02", "--threads", "1", "--overwrite"]
+    ran = []
+    for line in lines:
+        name, *arguments = re.sub(r" --set particle_spacing=\S+| --preset \S+", "", line).split()
+        if name not in ("compare", "reproduce", "watch"):
+            again = name == "run" and arguments[0].endswith(".nc")
+            extra = tiny if name == "run" and not again else []
+            arguments = ["0.01" if argument == "0.5" else argument for argument in arguments]
+            result = CliRunner().invoke(app, [name, *arguments, *extra])
+            assert result.exit_code == 0, f"{line}\n{result.output}"
+            ran.append(name)
+    assert {"run", "animate", "plot", "list", "show"} <= set(ran)
+    for made in ("dam-break.nc", "dam-break.png", "dam-break.mp4", "again.nc"):
+        assert (tmp_path / made).stat().st_size > 1000
+
+
 def test_links_lead_somewhere() -> None:
     for target in re.findall(r"\]\(([^)]+)\)", TEXT):
         if not target.startswith("http"):

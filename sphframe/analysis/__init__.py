@@ -9,11 +9,12 @@ from sphframe.analysis.plots import plot_run
 from sphframe.analysis.probes import probe_statistics, series_error
 from sphframe.analysis.reference import read_reference_series, references_for
 from sphframe.analysis.scales import pressure_scale, rest_pressure, time_scale
-from sphframe.analysis.summary import front_arrival, summary
+from sphframe.analysis.summary import concerns, front_arrival, summary
 
 __all__ = [
     "SphAccessor",
     "animate_run",
+    "concerns",
     "convergence_order",
     "convergence_orders",
     "export_csv",

@@ -104,7 +104,7 @@ def plot_run(
     if below:
         lower = figure.add_subfigure(grid[1])
         if "probe_pressure" in dataset or "gauge_elevation" in dataset:
-            left, right = lower.subplots(1, 2, width_ratios=[1.7, 1.0])
+            left, right = lower.subplots(1, 2, width_ratios=[1.7, 1.0], gridspec_kw={"wspace": 0.06})
             draw_histories(left, dataset, reference)
         else:
             right = lower.subplots()

@@ -4,10 +4,12 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from sphframe.analysis.scales import case_of, pressure_scale, time_scale
+from sphframe.interfaces import Status
 
-__all__ = ["front_arrival", "summary"]
+__all__ = ["concerns", "front_arrival", "summary"]
 
 
 def summary(dataset: xr.Dataset) -> dict[str, Any]:
@@ -107,3 +109,28 @@ def _peaks(dataset: xr.Dataset) -> dict[str, dict[str, float]]:
             "dimensionless_time": time / time_scale(dataset),
         }
     return peaks
+
+
+def concerns(*, outside: int, removed: int, densities: int, statuses: ArrayLike) -> list[str]:
+    """What a run counts that ought not to happen, in words; empty where all is well.
+
+    Parameters
+    ----------
+    outside: particles behind a wall; ``removed``: those that left the domain; ``densities``: those whose density lies
+        outside the guards' band.
+    statuses: (statuses,) number of ghosts by :class:`sphframe.Status`.
+
+    Examples
+    --------
+    >>> concerns(outside=3, removed=0, densities=0, statuses=[70, 100, 30, 0])
+    ['3 particles behind walls', '30 % of wet ghosts by fallback']
+    """
+    counts = np.asarray(statuses)
+    wet = int(counts.sum() - counts[Status.DRY])
+    fallen = wet - int(counts[Status.OK])
+    found = [
+        f"{number:,} {'particle' if number == 1 else 'particles'} {what}"
+        for number, what in ((outside, "behind walls"), (removed, "removed"), (densities, "of odd density"))
+        if number
+    ]
+    return [*found, f"{100 * fallen / wet:.2g} % of wet ghosts by fallback"] if fallen else found

@@ -1,20 +1,36 @@
 """Cases: what every case has, numerical and physical parameters, checked once when the case is made."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_serializer, model_validator
+from pydantic_core import PydanticUndefined
 
 from sphframe.cases.explain import explain
 from sphframe.errors import InputError
 from sphframe.geometry import Region, Wall
 from sphframe.interfaces import RigidBody
+from sphframe.representation import html_table
 
-__all__ = ["Case", "Component", "Derived", "Diagnostic", "Fields", "Gauge", "Guards", "Probe", "Scene", "quantity"]
+__all__ = [
+    "Case",
+    "Component",
+    "Derived",
+    "Diagnostic",
+    "Fields",
+    "Gauge",
+    "Guards",
+    "Parameter",
+    "Probe",
+    "Scene",
+    "parameters_of",
+    "quantity",
+    "written",
+]
 
 Array = NDArray[np.float64]
 
@@ -221,3 +237,67 @@ class Case(BaseModel, ABC):
     @abstractmethod
     def scene(self) -> Scene:
         """Draw the case: walls, fluid, bodies, probes."""
+
+    def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
+        """Only what was given: the rest are defaults."""
+        for name, value in super().__repr_args__():
+            if name in self.model_fields_set:
+                given = isinstance(value, Component) and (value.model_dump() if value.options else value.name)
+                yield name, given or value
+
+    def _repr_html_(self) -> str:
+        telling = {"interpolator", "hydrostatic_lift", "particle_spacing", "until", *self.model_fields_set}
+        telling |= type(self).model_fields.keys() - Case.model_fields.keys()
+        every = parameters_of(self)
+        title = f"{type(self).__name__}: {self.title}"
+        first = html_table(title, Parameter._fields, [p for p in every if p.name in telling])
+        rest = html_table("", Parameter._fields, [p for p in every if p.name not in telling])
+        return f"{first}<details><summary>other parameters</summary>{rest}</details>"
+
+
+class Parameter(NamedTuple):
+    """A parameter of a case, in words."""
+
+    name: str
+    value: str
+    unit: str
+    meaning: str
+
+
+def parameters_of(case: Case | type[Case]) -> list[Parameter]:
+    """The parameters of a case with their values, or of a class of cases with its defaults; the case's own come first.
+
+    Examples
+    --------
+    >>> from sphframe.cases import load_case
+    >>> parameters_of(load_case("dam-break"))[0]
+    Parameter(name='water_height', value='0.6', unit='m', meaning='height H of the water column')
+    """
+    model = case if isinstance(case, type) else type(case)
+    own = [name for name in model.model_fields if name not in Case.model_fields]
+    result = []
+    for name in [*own, *Case.model_fields]:
+        info = model.model_fields[name]
+        extra = info.json_schema_extra
+        unit = str(extra.get("unit", "")) if isinstance(extra, dict) else ""
+        value = written(info.default if isinstance(case, type) else getattr(case, name))
+        result.append(Parameter(name, value, "" if unit == "1" else unit, info.description or ""))
+    return result
+
+
+def written(value: Any) -> str:
+    """A value as it would be given, a derived default as its formula."""
+    if value is PydanticUndefined:
+        return "(required)"
+    if isinstance(value, Derived):
+        return value.text
+    if isinstance(value, Component):
+        table = value.model_dump()
+        return value.name if len(table) == 1 else str(table)
+    if isinstance(value, BaseModel):
+        return ", ".join(f"{name} = {written(inner)}" for name, inner in value)
+    if value is None:
+        return "(automatic)"
+    if isinstance(value, tuple | dict) and not value:
+        return "(none)"
+    return f"{value:g}" if isinstance(value, float) else str(value)

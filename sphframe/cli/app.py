@@ -29,6 +29,7 @@ sphframe {version}: a laboratory for wall boundaries in SPH free-surface flow
   sphframe reproduce            the whole paper, with a report of what it shows
   sphframe plot dam-break.nc    pictures: particles, probes, energies
   sphframe animate dam-break.nc a film, .mp4 or .gif
+  sphframe watch dam-break.nc   a page that shows a run while it goes
   sphframe export dam-break.nc  for ParaView (vtkhdf, pvd), or csv
   sphframe list                 what is installed: cases, interpolation methods, ...
   sphframe show dam-break       a case's parameters, units, defaults and presets
@@ -315,6 +316,21 @@ def _export(
     from sphframe.cli.export import export_command
 
     export_command(file, to=to, output=output)
+
+
+@app.command("watch")
+def _watch(
+    file: OutputFile,
+    field: DrawnField = "pressure",
+    port: Annotated[
+        int, typer.Option(min=0, max=65535, metavar="N", help="of the page, on this machine; 0 for any that is free")
+    ] = 8765,
+    open_browser: Annotated[bool, typer.Option("--open/--no-open", help="open the page in your browser")] = True,
+) -> None:
+    """Show the newest frame and the probes of a run while it goes, on a page that refreshes itself."""
+    from sphframe.cli.watch import watch_command
+
+    watch_command(file, field=field, port=port, open_browser=open_browser)
 
 
 @app.command("list")

@@ -1,20 +1,27 @@
 """CLI: what a run shows while it goes."""
 
 import time
+from collections import deque
+from datetime import timedelta
 from typing import Any
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, Progress, TaskID, TextColumn
 
+from sphframe.analysis import concerns
 from sphframe.hooks import hookimpl
 
 __all__ = ["ProgressDisplay"]
 
-_REFRESH = 0.1
+_REFRESH = 0.1  # s
+_STRETCH = 100  # refreshments over which rates are taken
 
 
 class ProgressDisplay:
-    """A hook plugin that shows step, simulated time, time step, speed and the time left.
+    """A hook plugin that shows step, simulated time, time step, rate, the time left, and what is wrong.
+
+    Rate and time left are those of the last ten seconds: neither what the first step compiled nor what a resumed run
+    had done before counts. What is wrong are the counts of :func:`sphframe.analysis.concerns`.
 
     On a terminal a bar; elsewhere, such as in a log file, a line for every tenth of the run.
 
@@ -27,40 +34,47 @@ class ProgressDisplay:
         self._console = console
         self._progress: Progress | None = None
         self._task = TaskID(0)
-        self._began = self._shown = 0.0
-        self._tenths = 0
+        self._tenths = self._outside = 0
+        self._seen: deque[tuple[float, int, float]] = deque(maxlen=_STRETCH)  # wall clock, step, simulated time
 
     @hookimpl
     def sphframe_run_started(self, simulation: Any) -> None:
         """Show the bar."""
-        self._began = time.monotonic()
+        self._tenths = int(10.0 * simulation.time / simulation.case.until)
         if self._console.is_terminal:
             self._progress = Progress(
                 BarColumn(),
                 TextColumn("{task.percentage:3.0f}%"),
-                TextColumn("{task.description}"),
-                TimeRemainingColumn(),
-                TextColumn("left"),
+                TextColumn("{task.description}", markup=False),
+                TextColumn("{task.fields[wrong]}", style="yellow", markup=False),
                 console=self._console,
                 transient=True,
             )
-            self._task = self._progress.add_task("starting", total=simulation.case.until)
+            self._task = self._progress.add_task("starting", total=simulation.case.until, wrong="")
             self._progress.start()
+
+    @hookimpl
+    def sphframe_frame_due(self, simulation: Any) -> None:
+        """Count the particles behind walls, which is too dear for every step."""
+        self._outside = simulation.particles_outside()
 
     @hookimpl
     def sphframe_step_completed(self, simulation: Any) -> None:
         """Move the bar, or print a line."""
         now = time.monotonic()
+        due = not self._seen or now - self._seen[-1][0] > _REFRESH
+        if due:
+            self._seen.append((now, simulation.step, simulation.time))
         if self._progress is not None:
-            if now - self._shown > _REFRESH:
-                self._shown = now
-                self._progress.update(self._task, completed=simulation.time, description=self._state(simulation))
+            if due:
+                state, wrong = self._state(simulation, now), "; ".join(self._wrong(simulation))
+                self._progress.update(self._task, completed=simulation.time, description=state, wrong=wrong)
             return
         tenths = int(10.0 * simulation.time / simulation.case.until)
         if tenths > self._tenths:
             self._tenths = tenths
-            left = (now - self._began) * (simulation.case.until / simulation.time - 1.0)
-            self._console.print(f"{10 * tenths:3d}%  {self._state(simulation)}, {left:.0f} s left")
+            parts = [f"{10 * tenths:3d}%  {self._state(simulation, now)}", *self._wrong(simulation)]
+            self._console.print("; ".join(parts), markup=False)
 
     @hookimpl
     def sphframe_run_finished(self, simulation: Any) -> None:
@@ -76,9 +90,19 @@ class ProgressDisplay:
         if self._progress is not None:
             self._progress.stop()
 
-    def _state(self, simulation: Any) -> str:
-        elapsed = max(time.monotonic() - self._began, 1e-9)
-        return (
-            f"step {simulation.step:,}, t = {simulation.time:.4g} of {simulation.case.until:.4g} s,"
-            f" dt = {simulation.time_step:.2e} s, {simulation.step / elapsed:.0f} steps/s"
+    def _state(self, simulation: Any, now: float) -> str:
+        until, step_length = simulation.case.until, f"dt = {simulation.time_step:.2e} s"
+        text = f"step {simulation.step:,}, t = {simulation.time:.4g} of {until:.4g} s, {step_length}"
+        began, step, then = self._seen[0]
+        if simulation.step == step or now <= began:
+            return text
+        left = (until - simulation.time) * (now - began) / (simulation.time - then)
+        return f"{text}, {(simulation.step - step) / (now - began):.0f} steps/s, {timedelta(seconds=round(left))} left"
+
+    def _wrong(self, simulation: Any) -> list[str]:
+        return concerns(
+            outside=self._outside,
+            removed=simulation.removed_count,
+            densities=simulation.densities_outside,
+            statuses=simulation.status_counts(),
         )

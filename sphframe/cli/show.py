@@ -3,15 +3,12 @@
 import inspect
 import re
 from pathlib import Path
-from typing import Any
 
-from pydantic import BaseModel
-from pydantic_core import PydanticUndefined
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from sphframe.cases import Case, Component, Derived, load_case
+from sphframe.cases import Case, load_case, parameters_of, written
 from sphframe.registry import KINDS, available, load
 
 __all__ = ["show_command"]
@@ -38,18 +35,13 @@ def _show_case(model: type[Case], name: str, case: Case | None) -> None:
     table = Table(box=None, pad_edge=False)
     for heading in ("parameter", "default" if case is None else "value", "unit", "meaning"):
         table.add_column(heading, overflow="fold")
-    own = [field for field in model.model_fields if field not in Case.model_fields]
-    for field in [*own, *Case.model_fields]:
-        info = model.model_fields[field]
-        value = info.default if case is None else getattr(case, field)
-        extra = info.json_schema_extra
-        unit = str(extra.get("unit", "")) if isinstance(extra, dict) else ""
-        table.add_row(field, Text(_written(value)), "" if unit == "1" else unit, Text(info.description or ""))
+    for name_of, value, unit, meaning in parameters_of(model if case is None else case):
+        table.add_row(name_of, Text(value), unit, Text(meaning))
     console.print(table)
     for preset, values in model.presets.items():
         console.print(f"\n--preset {preset}", markup=False)
         for field, value in values.items():
-            console.print(f"  {field} = {_written(value)}", markup=False)
+            console.print(f"  {field} = {written(value)}", markup=False)
     console.print(f"\nsphframe run {name} --set particle_spacing=0.02 --interpolator normalized", markup=False)
 
 
@@ -71,21 +63,3 @@ def _prose(docstring: str | None) -> str:
     as_written = re.compile(r"^\s|\n\s|\n---")
     blocks = (block if as_written.search(block) else " ".join(block.split()) for block in text.split("\n\n"))
     return "\n\n".join(blocks)
-
-
-def _written(value: Any) -> str:
-    """A value as it would be given, a derived default as its formula."""
-    if value is PydanticUndefined:
-        return "(required)"
-    if isinstance(value, Derived):
-        return value.text
-    if isinstance(value, Component):
-        table = value.model_dump()
-        return value.name if len(table) == 1 else str(table)
-    if isinstance(value, BaseModel):
-        return ", ".join(f"{name} = {_written(inner)}" for name, inner in value)
-    if value is None:
-        return "(automatic)"
-    if isinstance(value, tuple | dict) and not value:
-        return "(none)"
-    return f"{value:g}" if isinstance(value, float) else str(value)

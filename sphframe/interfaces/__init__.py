@@ -1,4 +1,4 @@
-"""Interfaces: what authors subclass. Nothing here imports another room."""
+"""Interfaces: what authors subclass. Nothing here imports another room (``representation`` is none)."""
 
 from sphframe.interfaces.boundary_interpolator import BoundaryInterpolator, WeightsFunction
 from sphframe.interfaces.equation_of_state import EquationOfState

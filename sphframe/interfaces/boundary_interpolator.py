@@ -1,5 +1,7 @@
 """Interfaces: how the fluid is interpolated to an evaluation point of the boundary."""
 
+import dataclasses
+import inspect
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from importlib import import_module
@@ -10,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from sphframe.interfaces.kernel import CompiledKernel
 from sphframe.interfaces.traits import Traits
+from sphframe.representation import html_table
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -99,6 +102,14 @@ class BoundaryInterpolator(ABC):
             kernel=cloud.kernel,
         )
         return matrix
+
+    def _repr_html_(self) -> str:
+        """Show the method in a notebook: its options, what it is, and what it promises."""
+        what = (inspect.getdoc(self) or "").partition("\n\n")[0]
+        promises = dataclasses.asdict(self.traits).items()
+        words = {"True": "yes", "False": "no"}
+        rows = [(name.replace("_", " "), words.get(str(value), value)) for name, value in promises]
+        return html_table(repr(self), ["promise", ""], rows, about=what)
 
 
 def kernel_average(

@@ -10,8 +10,9 @@ from importlib import metadata
 
 from sphframe.errors import ClashingPluginError, InputError, PluginWarning, UnknownComponentError
 from sphframe.registry.nearest import did_you_mean, nearest
+from sphframe.representation import html_table
 
-__all__ = ["API_VERSION", "KINDS", "OLDEST_API_VERSION", "Entry", "available", "clear", "find", "is_address"]
+__all__ = ["API_VERSION", "KINDS", "OLDEST_API_VERSION", "Entry", "Listing", "available", "clear", "find", "is_address"]
 
 API_VERSION = (1, 0)
 """version of the plugin interface that this sphframe offers"""
@@ -76,11 +77,26 @@ class Entry:
         return f"{self.title} of {_origin(self)}" if self.distribution else self.title
 
 
+class Listing(list[Entry]):
+    """Entries, one a line where they are shown."""
+
+    def __repr__(self) -> str:
+        """Name, distribution and error of each."""
+        return "\n".join("  ".join(part for part in row if part) for row in self._rows()) or "nothing is installed"
+
+    def _repr_html_(self) -> str:
+        kinds = ", ".join(dict.fromkeys(entry.kind for entry in self)) or "nothing is installed"
+        return html_table(kinds.replace("_", " "), ["name", "from", "error"], self._rows())
+
+    def _rows(self) -> list[tuple[str, str, str]]:
+        return [(entry.name, _origin(entry), entry.error or "") for entry in self]
+
+
 _errors: dict[Entry, str] = {}
 
 
-def available(kind: str) -> list[Entry]:
-    """List the installed components of ``kind``, sorted by name, without loading any of them.
+def available(kind: str) -> Listing:
+    """List the installed components of ``kind``, sorted by name, without loading any of them; shown as a table.
 
     Names that several distributions claim are listed once for each, with the clash as their error; components that
     could not be loaded earlier in this process have that as their error (:func:`sphframe.registry.check` tries all).
@@ -92,10 +108,10 @@ def available(kind: str) -> list[Entry]:
     _check_kind(kind)
     entries = _declared()[kind]
     names = [entry.name for entry in entries]
-    return [
+    return Listing(
         replace(entry, error=_clash(entry, entries) if names.count(entry.name) > 1 else _errors.get(entry))
         for entry in entries
-    ]
+    )
 
 
 def find(kind: str, name: str) -> Entry:

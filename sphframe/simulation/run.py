@@ -17,6 +17,7 @@ from sphframe.hooks import hook_manager
 from sphframe.output import CheckpointWriter, NetCDFWriter, open_dataset
 from sphframe.output.checkpoint import changed_versions, read_checkpoint
 from sphframe.output.writer import checkpoint_path
+from sphframe.representation import html_table
 from sphframe.simulation.simulation import Simulation
 
 __all__ = ["Prepared", "Run", "prepare_resume", "resume", "run"]
@@ -29,6 +30,23 @@ class Run:
     case: Case
     path: Path
     dataset: xr.Dataset
+
+    def __repr__(self) -> str:
+        """What was run, and where it is."""
+        return f"Run({', '.join(text for _, text in self._facts())})"
+
+    def _repr_html_(self) -> str:
+        return html_table(self.case.title, ["", ""], self._facts()) + self.dataset._repr_html_()
+
+    def _facts(self) -> list[tuple[str, str]]:
+        case, sizes = self.case, self.dataset.sizes
+        return [
+            ("case", str(self.dataset.attrs["case_name"])),
+            ("method", f"{case.interpolator.name} with {case.hydrostatic_lift} lift"),
+            ("particles", f"{sizes['particle']:,} particles of {case.particle_spacing:g} m, {case.dimension}-D"),
+            ("time", f"{case.until:.4g} s in {sizes['time']} frames"),
+            ("file", str(self.path)),
+        ]
 
 
 def run(

@@ -1,10 +1,12 @@
 """The command line: what it prints, writes and returns."""
 
+import io
 import os
 import signal
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import xarray as xr
@@ -207,20 +209,40 @@ def test_interrupted_it_keeps_what_it_has(tmp_path: Path, number: signal.Signals
 
 
 class FakeSimulation:
-    """Half way through a run."""
+    """A run that is watched."""
 
-    step, time, time_step = 500, 0.55, 1e-3
+    step, time, time_step = 500, 0.45, 1e-3
+    removed_count, densities_outside, behind_walls = 0, 0, 0
+    statuses = (20, 10, 0, 0)
 
     class case:  # noqa: N801
         until = 1.0
 
+    def advance(self, steps: int) -> None:
+        self.step, self.time = self.step + steps, self.time + 1e-3 * steps
 
-def test_progress_on_a_terminal_and_in_a_log() -> None:
-    log = Console(force_terminal=False, record=True, width=120)
-    terminal = Console(force_terminal=True, record=True, width=120)
-    for console in (log, terminal):
-        display = ProgressDisplay(console)
-        display.sphframe_run_started(FakeSimulation)
-        display.sphframe_step_completed(FakeSimulation)
-        display.sphframe_run_failed(FakeSimulation, KeyboardInterrupt())
-    assert "50%  step 500, t = 0.55 of 1 s, dt = 1.00e-03 s" in log.export_text()
+    def particles_outside(self) -> int:
+        return self.behind_walls
+
+    def status_counts(self) -> tuple[int, ...]:
+        return self.statuses
+
+
+@pytest.mark.parametrize("terminal", [False, True])
+def test_progress_shows_the_rate_of_now_and_what_is_wrong(terminal: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = iter([10.0, 12.0])  # the first step took long: it compiled
+    monkeypatch.setattr("sphframe.cli.progress.time", SimpleNamespace(monotonic=lambda: next(clock)))
+    console = Console(force_terminal=terminal, file=io.StringIO(), record=True, width=200)
+    display, simulation = ProgressDisplay(console), FakeSimulation()
+    display.sphframe_run_started(simulation)  # resumed: 450 steps are old
+    simulation.advance(1)
+    display.sphframe_step_completed(simulation)
+    simulation.removed_count, simulation.behind_walls, simulation.statuses = 2, 1, (15, 10, 5, 0)
+    display.sphframe_frame_due(simulation)
+    simulation.advance(100)
+    display.sphframe_step_completed(simulation)
+    display.sphframe_run_failed(simulation, KeyboardInterrupt())
+    text = " ".join(console.export_text().split())
+    assert "step 601, t = 0.551 of 1 s, dt = 1.00e-03 s, 50 steps/s, 0:00:09 left" in text
+    for wrong in ("1 particle behind walls", "2 particles removed", "25 % of wet ghosts by fallback"):
+        assert wrong in text

@@ -57,7 +57,7 @@ class Page(HTMLParser):
         """Note an element."""
         self.elements.add(tag)
         if tag == "img":
-            self.images.append(dict(attrs)["src"] or "")
+            self.images.append(dict(attrs).get("src") or "")
 
     def handle_data(self, data: str) -> None:
         """Note text."""

@@ -1,0 +1,143 @@
+"""Analysis: a run as it stands now, for those who watch it go."""
+
+import io
+import math
+import os
+import threading
+import time
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import xarray as xr
+
+from sphframe.analysis.drawing import field_to_draw, figure_class
+from sphframe.analysis.plots import plot_run
+from sphframe.analysis.scales import case_of
+from sphframe.analysis.summary import concerns
+from sphframe.errors import SphframeError
+from sphframe.output import open_dataset
+
+__all__ = ["LiveRun", "Look"]
+
+_SHARE = 0.1  # of the time, at most, goes into drawing: it is the run that needs the cores
+_SILENCE = 60.0  # s without a word from a run that writes every second
+
+
+@dataclass(frozen=True)
+class Look:
+    """What is seen of a run at one moment.
+
+    Attributes
+    ----------
+    status: ``running``, ``completed``, ``stopped``, or ``unreadable`` while the file is missing or damaged.
+    message: why the run stopped, why its file cannot be read, that there is no frame yet or nothing new for long;
+        else empty.
+    facts: what is known of the run, by name, as texts.
+    picture: the newest frame, the histories and the energies as a PNG; empty before the first frame. The last one
+        that could be drawn stays.
+    drawn: how many pictures were drawn so far.
+    """
+
+    status: str
+    message: str
+    facts: dict[str, str]
+    picture: bytes = b""
+    drawn: int = 0
+
+
+class LiveRun:
+    """Looks at the file of a run again and again, from any thread, and draws only what has changed.
+
+    Parameters
+    ----------
+    path: the output file of a run, finished or still going.
+    field: ``pressure``, ``speed`` or ``density``.
+
+    Raises
+    ------
+    InputError: the file is missing, damaged or of another program, the field is unknown, or matplotlib is missing.
+    """
+
+    def __init__(self, path: str | os.PathLike[str], *, field: str = "pressure") -> None:
+        self.path = Path(path)
+        self._field = field
+        self._lock = threading.Lock()  # netCDF and matplotlib are not made for several threads
+        self._look = Look("unreadable", "", {})
+        self._shown: tuple[object, ...] = ()
+        self._rest_until = 0.0
+        field_to_draw(field)
+        figure_class()
+        open_dataset(path).close()
+
+    @property
+    def latest(self) -> Look:
+        """What was seen last, without looking again."""
+        return self._look
+
+    def look(self) -> Look:
+        """Return how the run stands. What goes wrong with the file is the ``message``; nothing is raised for it."""
+        with self._lock:
+            try:
+                with open_dataset(self.path) as dataset:
+                    self._look = self._seen(dataset)
+            except SphframeError as error:
+                self._look = replace(self._look, status="unreadable", message=str(error))
+            except Exception as error:  # a file that is just being replaced fails in many ways; the next look is sound
+                message = f"the file cannot be read: {type(error).__name__}: {error}"
+                self._look = replace(self._look, status="unreadable", message=message)
+            return self._look
+
+    def _seen(self, dataset: xr.Dataset) -> Look:
+        status = {"failed": "stopped"}.get(dataset.attrs["run_status"], dataset.attrs["run_status"])
+        message = dataset.attrs["run_message"]
+        silence = max(time.time() - self.path.stat().st_mtime, 0.0)
+        picture, drawn = self._look.picture, self._look.drawn
+        content = (dataset.attrs.get("run_id"), status, dataset.sizes["time"], dataset.sizes["probe_time"])
+        if not dataset.sizes["time"] or not dataset.sizes["probe_time"]:
+            message = message or "no frame yet: the picture comes with the first one"
+        elif content != self._shown and (time.monotonic() >= self._rest_until or status != "running" or not picture):
+            began = time.monotonic()
+            picture, drawn = self._drawn(dataset), drawn + 1
+            self._shown = content
+            self._rest_until = time.monotonic() + (time.monotonic() - began) * (1.0 / _SHARE - 1.0)
+        if status == "running" and silence > _SILENCE:
+            message = (
+                f"nothing was written for {silence:,.0f} s: if the run was killed,"
+                f" sphframe resume {self.path.name} continues it from its last checkpoint"
+            )
+        facts = {**_facts(dataset, status), "written": f"{silence:,.0f} s ago"}
+        return Look(status, message, facts, picture, drawn)
+
+    def _drawn(self, dataset: xr.Dataset) -> bytes:
+        picture = io.BytesIO()
+        figure = plot_run(dataset, field=self._field, times=[float(dataset["time"][-1])])
+        figure.savefig(picture, format="png")
+        return picture.getvalue()
+
+
+def _facts(dataset: xr.Dataset, status: str) -> dict[str, str]:
+    case = case_of(dataset)
+    until = float(case["until"])
+    facts = {
+        "case": f"{dataset.attrs['case_name']}: {dataset.attrs['title']}",
+        "method": f"{case['interpolator']['name']}, {case['hydrostatic_lift']} lift",
+        "particles": f"{dataset.sizes['particle']:,}, spacing {1e3 * dataset.attrs['particle_spacing']:g} mm",
+        "time": f"0 of {until:.4g} s",
+    }
+    if dataset.sizes["probe_time"]:
+        last = dataset.isel(probe_time=-1)
+        now, step, elapsed = float(last["probe_time"]), int(last["step"]), float(last["wall_clock"])
+        share = math.floor(100.0 * min(now / until, 1.0) + 1e-9)
+        facts["time"] = f"{now:.4g} of {until:.4g} s ({share} %), step {step:,}, {dataset.sizes['time']} frames"
+        if elapsed > 0.0:
+            facts["rate"] = f"{step / elapsed:,.0f} steps/s, {now / elapsed:.2g} simulated s per s"
+            if status == "running" and now > 0.0:
+                facts["rate"] += f", {elapsed * max(until / now - 1.0, 0.0):,.0f} s left"
+        wrong = concerns(
+            outside=int(dataset["particles_outside"].values.max(initial=0)),
+            removed=int(last["particles_removed"]),
+            densities=int(dataset["densities_outside"].max()),
+            statuses=last["interpolation_status"],
+        )
+        facts["warnings"] = "; ".join(wrong) or "none"
+    return facts

@@ -1,0 +1,96 @@
+"""CLI: ``sphframe watch``: a page on this machine that shows a run while it goes."""
+
+import contextlib
+import errno
+import json
+import webbrowser
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from sphframe.analysis.live import LiveRun
+from sphframe.errors import InputError
+
+__all__ = ["WatchServer", "watch_command"]
+
+_HOST = "127.0.0.1"
+
+
+class WatchServer(ThreadingHTTPServer):
+    """Serves the page at ``/``, what is on it at ``/state.json`` and ``/picture.png``; to this machine only.
+
+    Parameters
+    ----------
+    run: what to show.
+    port: 0 for any that is free.
+
+    Raises
+    ------
+    InputError: the port cannot be had.
+    """
+
+    daemon_threads = True
+
+    def __init__(self, run: LiveRun, port: int) -> None:
+        self.run = run
+        try:
+            super().__init__((_HOST, port), _Handler)
+        except OSError as error:
+            taken = error.errno == errno.EADDRINUSE
+            raise InputError(
+                f"port {port} {'is taken by another program' if taken else f'cannot be had: {error.strerror}'};"
+                " give another --port, or --port 0 for any that is free"
+            ) from None
+
+    @property
+    def address(self) -> str:
+        """Where the page is."""
+        return f"http://{_HOST}:{self.server_port}/"
+
+
+class _Handler(BaseHTTPRequestHandler):
+    server: WatchServer
+
+    def do_GET(self) -> None:
+        if self.headers.get("Host") not in {f"{name}:{self.server.server_port}" for name in (_HOST, "localhost")}:
+            self.send_error(403)  # a page from elsewhere, whose name was made to lead here
+            return
+        match self.path.partition("?")[0]:
+            case "/":
+                self._answer("text/html; charset=utf-8", files("sphframe.cli").joinpath("watch.html").read_bytes())
+            case "/state.json":
+                look = self.server.run.look()
+                state = {
+                    "file": self.server.run.path.name,
+                    "status": look.status,
+                    "message": look.message,
+                    "facts": look.facts,
+                    "drawn": look.drawn,
+                }
+                self._answer("application/json", json.dumps(state).encode())
+            case "/picture.png" if self.server.run.latest.picture:
+                self._answer("image/png", self.server.run.latest.picture)
+            case _:
+                self.send_error(404)
+
+    def _answer(self, kind: str, content: bytes) -> None:
+        with contextlib.suppress(ConnectionError):  # the browser did not wait
+            self.send_response(200)
+            self.send_header("Content-Type", kind)
+            self.send_header("Content-Length", str(len(content)))
+            self.send_header("Cache-Control", "no-store")
+            self.end_headers()
+            self.wfile.write(content)
+
+    def log_message(self, *_: Any) -> None:
+        """Say nothing: the page asks every second."""
+
+
+def watch_command(path: Path, *, field: str, port: int, open_browser: bool) -> None:
+    """Show a run, finished or still going, until Ctrl-C."""
+    with WatchServer(LiveRun(path, field=field), port) as server, contextlib.suppress(KeyboardInterrupt):
+        print(f"{path} is shown at {server.address} (Ctrl-C ends this)", flush=True)
+        if open_browser:
+            webbrowser.open(server.address)
+        server.serve_forever()

@@ -1,0 +1,28 @@
+"""Representation: how objects show themselves in notebooks: short tables, laid out and escaped by pandas."""
+
+from collections.abc import Sequence
+from html import escape
+
+__all__ = ["html_table"]
+
+
+def html_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]], *, about: str = "") -> str:
+    """Return an HTML table under its ``title``, with a line ``about`` what it shows.
+
+    Parameters
+    ----------
+    columns: headings; all empty for a table without a head.
+    rows: one text for each column.
+
+    Examples
+    --------
+    >>> print(html_table("a < b", ["name"], [["c & d"]]).split(">")[1])
+    a &lt; b</b
+    """
+    import pandas as pd
+
+    frame = pd.DataFrame([[str(cell) for cell in row] for row in rows], columns=list(columns))
+    with pd.option_context("display.max_colwidth", None):
+        table = frame.to_html(index=False, header=any(columns), border=0, justify="left", max_rows=None)
+    line = f"<div>{escape(about)}</div>" if about else ""
+    return f"<div><b>{escape(title)}</b>{line}{table}</div>"
