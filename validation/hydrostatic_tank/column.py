@@ -85,7 +85,7 @@ class Column:
         weights = share.sum(axis=2) / share.sum(axis=(1, 2))[:, None]
         centroid = (weights * offset).sum(axis=1)
         rise = 2.0 * self.mirror
-        answer = weights
+        answer = weights.copy()
         if self.lift == "balanced":
             rise += centroid
             answer = (self.mirror / (self.mirror + np.maximum(centroid, -0.5 * self.mirror)))[:, None] * weights
