@@ -2,17 +2,20 @@
 
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from sphframe.errors import InputError
 from sphframe.output.schema import RunStatus
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 __all__ = ["open_dataset"]
 
 
-def open_dataset(path: str | os.PathLike[str]) -> xr.Dataset:
+def open_dataset(path: str | os.PathLike[str]) -> "xr.Dataset":
     """Open a file written by :class:`~sphframe.output.NetCDFWriter`.
 
     Arrays are read when they are used. Of a run that is still going, or was killed, the frames and samples written so
@@ -33,6 +36,8 @@ def open_dataset(path: str | os.PathLike[str]) -> xr.Dataset:
     ------
     InputError: the file is missing, was not written by sphframe, or is truncated.
     """
+    import xarray as xr  # takes longer to load than all of sphframe, which a run that begins need not wait for
+
     path = Path(path)
     if not path.exists():
         raise InputError(f"{path} does not exist: check the name, or write it with sphframe run CASE --output {path}")
@@ -53,7 +58,7 @@ def open_dataset(path: str | os.PathLike[str]) -> xr.Dataset:
         raise
 
 
-def _prepared(dataset: xr.Dataset, path: Path) -> xr.Dataset:
+def _prepared(dataset: "xr.Dataset", path: Path) -> "xr.Dataset":
     if "case_parameters" not in dataset.attrs or "particle_mass" not in dataset:
         raise InputError(
             f"{path} is a NetCDF file, but not the output of a sphframe run: it has no case_parameters. Name another,"

@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 
 __all__ = ["rest_pressure"]
 
@@ -20,6 +19,8 @@ def rest_pressure(depth: Array, density: Any, reference_density: float, sound_sp
     deepest = float(np.max(depth, initial=0.0))
     if deepest <= 0.0 or gravity == 0.0:
         return np.zeros_like(depth)
+    from scipy.integrate import solve_ivp  # most cases bring their initial pressure: it need not be loaded
+
     solution = solve_ivp(
         lambda _, p: [density(p[0], reference_density, sound_speed) * gravity],
         (0.0, deepest),

@@ -7,9 +7,7 @@ import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
-
-import xarray as xr
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sphframe.cases import Case, load_case
 from sphframe.errors import InputError, ResumeWarning
@@ -20,6 +18,9 @@ from sphframe.output.writer import checkpoint_path
 from sphframe.representation import html_table
 from sphframe.simulation.simulation import Simulation
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 __all__ = ["Prepared", "Run", "prepare_resume", "resume", "run"]
 
 
@@ -29,7 +30,7 @@ class Run:
 
     case: Case
     path: Path
-    dataset: xr.Dataset
+    dataset: "xr.Dataset"
 
     def __repr__(self) -> str:
         """What was run, and where it is."""

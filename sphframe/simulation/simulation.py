@@ -388,7 +388,7 @@ class Simulation:
         return self._gauges.elevations(self.sample(self._gauges.points)[1])
 
     def energies(self) -> dict[str, float]:
-        """Kinetic, potential and internal energy of the fluid, J (per metre of width in 2-D).
+        """Kinetic, potential and internal energy of the fluid, J (per metre of width in 2-D), summed in one thread.
 
         The potential energy is measured from z = 0; the internal energy is p^2 V / (2 rho c0^2), its leading order.
         """
@@ -396,9 +396,9 @@ class Simulation:
         mass = self.system.rows[: self.fluid_count, self.columns.mass]
         compliance = mass / (fields.density**2 * self.sound_speed**2)
         return {
-            "kinetic": 0.5 * float(mass @ np.einsum("ij,ij->i", fields.velocity, fields.velocity)),
-            "potential": self.case.gravity * float(mass @ fields.position[:, -1]),
-            "internal": 0.5 * float(compliance @ fields.pressure**2),
+            "kinetic": 0.5 * float(np.einsum("i,ij,ij->", mass, fields.velocity, fields.velocity)),
+            "potential": self.case.gravity * float(np.einsum("i,i->", mass, fields.position[:, -1])),
+            "internal": 0.5 * float(np.einsum("i,i,i->", compliance, fields.pressure, fields.pressure)),
         }
 
     def diagnostics(self) -> dict[str, float]:

@@ -93,15 +93,8 @@ class FluidSystem(System):
         self._pressure = specialise(
             update_pressure, {"DIM": dim, "PRESSURE": compile_part(equation_of_state.pressure_function())}
         )
-        self._gradient, self._all_rates, self._density_rates, self._accelerations = (
-            specialise(fluid_sums, {**parts, "SLOPE": slope, "CONTINUITY": continuity, "MOMENTUM": momentum})
-            for slope, continuity, momentum in (
-                (True, False, False),
-                (False, True, True),
-                (False, True, False),
-                (True, False, True),
-            )
-        )
+        self._density_rates = specialise(fluid_sums, {**parts, "SLOPE": False, "CONTINUITY": True, "MOMENTUM": False})
+        self._accelerations = specialise(fluid_sums, {**parts, "SLOPE": True, "CONTINUITY": False, "MOMENTUM": True})
         self._wall_reaction = specialise(wall_reaction, parts)
 
     def _hold_fluid(self, rows: Array, rates: Array, lists: NeighbourLists) -> None:
@@ -150,12 +143,8 @@ class FluidSystem(System):
 
     def evaluate(self, time: float) -> None:
         """Compute all rates of the present state at ``time``."""
-        self.move_walls(time)
-        self.update_pressure()
-        self.fill_ghosts()
-        self.find_density_gradient()
-        self._find(self._all_rates)
-        self.find_body_rates(time)
+        self.evaluate_acceleration(time)
+        self._find(self._density_rates)
 
     def evaluate_density(self, time: float) -> None:
         """Compute the density rates of the present state at ``time``, with the density gradient last computed."""
@@ -196,10 +185,6 @@ class FluidSystem(System):
             reference_density=p.reference_density,
             sound_speed=p.sound_speed,
         )
-
-    def find_density_gradient(self) -> None:
-        """Renormalised density gradient of the fluid."""
-        self._find(self._gradient)
 
     def _find(self, sums: Any) -> None:
         p, lists = self.parameters, self.lists
