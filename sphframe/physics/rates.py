@@ -1,8 +1,7 @@
 """Physics: the sums over a particle's neighbours in one loop; each term is explained in its own file.
 
-SLOPE, CONTINUITY and MOMENTUM say which of them a specialised loop evaluates: the density gradient, the density rate
-(which needs the gradient), the acceleration. What does not depend on the other is done at once where it can be, since
-half of the cost is the pair's distance and kernel.
+With CONTINUITY a specialised loop evaluates the density rate, which needs the density gradient; without, the
+acceleration and the density gradient at once: half of the cost is the pair's distance and kernel.
 """
 
 from typing import Any
@@ -21,9 +20,7 @@ __all__ = ["fluid_sums"]
 # parts bound by specialise()
 DIM = 2
 SUPPORT = 3.0  # R/h
-SLOPE = True
 CONTINUITY = True
-MOMENTUM = True
 
 
 def GRADIENT(s: Any) -> Any:  # noqa: N802
@@ -33,8 +30,8 @@ def GRADIENT(s: Any) -> Any:  # noqa: N802
 def fluid_sums(  # type: ignore[no-untyped-def]
     rows, lists, fluid_counts, ghost_counts, support, gradient_scale, diffusion, viscosity, gravity, gradient, rates
 ):  # fmt: skip
-    """Write <grad rho> (n, dim) to ``gradient`` if SLOPE; velocity, acceleration (if MOMENTUM) and density rate (if
-    CONTINUITY, with the ``gradient`` that is there) (n, 2 dim + 1) to ``rates``.
+    """Write the velocity to ``rates`` (n, 2 dim + 1); with CONTINUITY the density rate, by the ``gradient`` (n, dim)
+    that is there, to its last column; without, the acceleration to those between, and <grad rho> to ``gradient``.
 
     ``gradient_scale`` is sigma_d / h^(d+2), ``diffusion`` delta h c0 in m^2/s, ``viscosity`` alpha h c0 rho0 in Pa s,
     ``gravity`` acts downwards along the last axis, m/s^2. A row of ``lists`` serves LANES consecutive particles, which
@@ -114,23 +111,21 @@ def fluid_sums(  # type: ignore[no-untyped-def]
                     r2 = fma(dz, dz, r2)
                 weight = GRADIENT(r2 * per_h2) * scale
                 weight = weight if r2 < limit else 0.0  # a choice, not a branch: the loop vectorises
-                if MOMENTUM or CONTINUITY:
-                    approach = fma(uj - u[a], dx, (vj - v[a]) * dy)
-                    if DIM == 3:
-                        approach = fma(wj - w[a], dz, approach)
+                approach = fma(uj - u[a], dx, (vj - v[a]) * dy)
+                if DIM == 3:
+                    approach = fma(wj - w[a], dz, approach)
                 if CONTINUITY:
                     sloped = fma(gx[a] + gxj, dx, (gy[a] + gyj) * dy)
                     if DIM == 3:
                         sloped = fma(gz[a] + gzj, dz, sloped)
                     compression[a] = fma(weight, approach, compression[a])
                     diffused[a] = fma(weight, diffusive_flux(density_j - density[a], sloped), diffused[a])
-                if MOMENTUM:
+                else:
                     stress = weight * pair_stress(pressure[a] + pressure_j, viscosity, approach, r2)
                     fx[a] = fma(stress, dx, fx[a])
                     fy[a] = fma(stress, dy, fy[a])
                     if DIM == 3:
                         fz[a] = fma(stress, dz, fz[a])
-                if SLOPE:
                     rise = weight * (density_j - density[a])
                     wx = weight * dx
                     wy = weight * dy
@@ -144,52 +139,49 @@ def fluid_sums(  # type: ignore[no-untyped-def]
                         xz[a] = fma(wx, dz, xz[a])
                         yz[a] = fma(wy, dz, yz[a])
                         zz[a] = fma(weight * dz, dz, zz[a])
-        if MOMENTUM or CONTINUITY:
-            for k in range(fluid, both):
-                j = lists[c, k]
-                xj = rows[j, 0]
-                yj = rows[j, 1]
-                zj = rows[j, DIM - 1]
-                uj = rows[j, DIM]
-                vj = rows[j, DIM + 1]
-                wj = rows[j, 2 * DIM - 1]
-                pressure_j = rows[j, 2 * DIM + 1]
-                scale = -gradient_scale * rows[j, 2 * DIM + 2]
-                for a in range(LANES):
-                    dx = xj - x[a]
-                    dy = yj - y[a]
-                    r2 = fma(dx, dx, dy * dy)
-                    approach = fma(uj - u[a], dx, (vj - v[a]) * dy)
+        for k in range(fluid, both):
+            j = lists[c, k]
+            xj = rows[j, 0]
+            yj = rows[j, 1]
+            zj = rows[j, DIM - 1]
+            uj = rows[j, DIM]
+            vj = rows[j, DIM + 1]
+            wj = rows[j, 2 * DIM - 1]
+            pressure_j = rows[j, 2 * DIM + 1]
+            scale = -gradient_scale * rows[j, 2 * DIM + 2]
+            for a in range(LANES):
+                dx = xj - x[a]
+                dy = yj - y[a]
+                r2 = fma(dx, dx, dy * dy)
+                approach = fma(uj - u[a], dx, (vj - v[a]) * dy)
+                if DIM == 3:
+                    dz = zj - z[a]
+                    r2 = fma(dz, dz, r2)
+                    approach = fma(wj - w[a], dz, approach)
+                weight = GRADIENT(r2 * per_h2) * scale
+                weight = weight if r2 < limit else 0.0
+                if CONTINUITY:
+                    compression[a] = fma(weight, approach, compression[a])
+                else:
+                    stress = weight * pair_stress(pressure[a] + pressure_j, viscosity, approach, r2)
+                    fx[a] = fma(stress, dx, fx[a])
+                    fy[a] = fma(stress, dy, fy[a])
                     if DIM == 3:
-                        dz = zj - z[a]
-                        r2 = fma(dz, dz, r2)
-                        approach = fma(wj - w[a], dz, approach)
-                    weight = GRADIENT(r2 * per_h2) * scale
-                    weight = weight if r2 < limit else 0.0
-                    if CONTINUITY:
-                        compression[a] = fma(weight, approach, compression[a])
-                    if MOMENTUM:
-                        stress = weight * pair_stress(pressure[a] + pressure_j, viscosity, approach, r2)
-                        fx[a] = fma(stress, dx, fx[a])
-                        fy[a] = fma(stress, dy, fy[a])
-                        if DIM == 3:
-                            fz[a] = fma(stress, dz, fz[a])
+                        fz[a] = fma(stress, dz, fz[a])
         for a in range(present):
             i = first + a
-            if MOMENTUM or CONTINUITY:
-                rates[i, 0] = u[a]
-                rates[i, 1] = v[a]
-                if DIM == 3:
-                    rates[i, 2] = w[a]
-            if MOMENTUM:
+            rates[i, 0] = u[a]
+            rates[i, 1] = v[a]
+            if DIM == 3:
+                rates[i, 2] = w[a]
+            if CONTINUITY:
+                rates[i, 2 * DIM] = diffusion * diffused[a] - density[a] * compression[a]
+            else:
                 rates[i, DIM] = fx[a] / density[a]
                 rates[i, DIM + 1] = fy[a] / density[a]
                 if DIM == 3:
                     rates[i, DIM + 2] = fz[a] / density[a]
                 rates[i, 2 * DIM - 1] -= gravity
-            if CONTINUITY:
-                rates[i, 2 * DIM] = diffusion * diffused[a] - density[a] * compression[a]
-            if SLOPE:
                 if DIM == 2:
                     gradient[i, 0], gradient[i, 1] = renormalised_2d(bx[a], by[a], xx[a], xy[a], yy[a])
                 else:

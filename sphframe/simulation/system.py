@@ -93,8 +93,8 @@ class FluidSystem(System):
         self._pressure = specialise(
             update_pressure, {"DIM": dim, "PRESSURE": compile_part(equation_of_state.pressure_function())}
         )
-        self._density_rates = specialise(fluid_sums, {**parts, "SLOPE": False, "CONTINUITY": True, "MOMENTUM": False})
-        self._accelerations = specialise(fluid_sums, {**parts, "SLOPE": True, "CONTINUITY": False, "MOMENTUM": True})
+        self._density_rates = specialise(fluid_sums, {**parts, "CONTINUITY": True})
+        self._accelerations = specialise(fluid_sums, {**parts, "CONTINUITY": False})
         self._wall_reaction = specialise(wall_reaction, parts)
 
     def _hold_fluid(self, rows: Array, rates: Array, lists: NeighbourLists) -> None:

@@ -45,31 +45,22 @@ class Cloud:
 
     def density_gradient(self):
         gradient = np.full((self.fluid_count, self.dim), np.nan)
-        self._sum(gradient, np.zeros((self.fluid_count, 2 * self.dim + 1)), slope=True)
+        self._sum(False, gradient, np.zeros((self.fluid_count, 2 * self.dim + 1)))
         return gradient
 
-    def rates(self, gradient, *, continuity=True, momentum=True, **numbers):
+    def rates(self, gradient, **numbers):
+        """Velocity, acceleration and density rate, the latter with the given gradient."""
         rates = np.full((self.fluid_count, 2 * self.dim + 1), np.nan)
-        self._sum(gradient, rates, continuity=continuity, momentum=momentum, **numbers)
+        self._sum(False, np.zeros_like(gradient), rates, **numbers)
+        self._sum(True, gradient, rates, **numbers)
         return rates
 
-    def acceleration_and_gradient(self, **numbers):
-        gradient = np.full((self.fluid_count, self.dim), np.nan)
-        rates = np.full((self.fluid_count, 2 * self.dim + 1), np.nan)
-        self._sum(gradient, rates, slope=True, momentum=True, **numbers)
-        return rates, gradient
-
-    def _sum(
-        self, gradient, rates, *, diffusion=0.0, viscosity=0.0, gravity=0.0, slope=False, continuity=False,
-        momentum=False,
-    ):  # fmt: skip
+    def _sum(self, continuity, gradient, rates, *, diffusion=0.0, viscosity=0.0, gravity=0.0):
         parts = {
             "DIM": self.dim,
             "SUPPORT": self.kernel.support,
             "GRADIENT": self.kernel.gradient_of_square,
-            "SLOPE": slope,
             "CONTINUITY": continuity,
-            "MOMENTUM": momentum,
         }
         specialise(fluid_sums, parts)(
             self.rows, self.lists, self.fluid_counts, self.ghost_counts, self.support, self.gradient_scale,
