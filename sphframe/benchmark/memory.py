@@ -71,7 +71,7 @@ def measure_memory(particles: int, dim: int) -> MemoryCost:
 
 def measure_here(particles: int, dim: int) -> dict[str, Any]:
     """Measure in this process."""
-    warm_up(Simulation(dam_break(1000, dim), threads=1))  # loads the loops, which take memory of their own
+    warm_up(Simulation(dam_break(100, dim), threads=1))  # loads the loops, which take memory of their own
     _forget_peak()
     before = _resident("VmRSS")
     simulation = Simulation(dam_break(particles, dim), threads=1)
