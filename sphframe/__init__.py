@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         WeightsFunction,
     )
     from sphframe.interfaces.scratch import local_array
+    from sphframe.kernels import fast_exp
     from sphframe.output import open_dataset
     from sphframe.registry import available, create
     from sphframe.simulation.run import Run, resume, run
@@ -61,6 +62,7 @@ _HOMES = {
         "WeightsFunction",
     ],
     "sphframe.interfaces.scratch": ["local_array"],
+    "sphframe.kernels": ["fast_exp"],
     "sphframe.output": ["open_dataset"],
     "sphframe.registry": ["available", "create"],
     "sphframe.simulation": ["Run", "Simulation", "resume", "run"],
@@ -95,6 +97,7 @@ __all__ = [
     "WeightsFunction",
     "available",
     "create",
+    "fast_exp",
     "hookimpl",
     "load_case",
     "local_array",

@@ -3,8 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from sphframe import OK, BoundaryInterpolator, CompiledKernel, Traits, WeightsFunction
-from sphframe.kernels import fast_exp
+from sphframe import OK, BoundaryInterpolator, CompiledKernel, Traits, WeightsFunction, fast_exp
 
 _TRAITS = Traits(
     non_negative=True,
