@@ -51,7 +51,10 @@ BAD: list[tuple[list[str], str]] = [
     (["bench", "--particles", "3000,"], "give whole numbers"),
     (["bench", "--particles", "10"], "particles = 10: give at least 100"),
     (["bench", "--threads", "1,0"], "threads = 0"),
-    (["bench", "--only", "rest,speed"], "there is no section 'speed' to measure; the sections are rest, developed, 3d"),
+    (
+        ["bench", "--only", "rest,speed"],
+        "there is no section 'speed' to measure; the sections are peak, rest, developed, 3d",
+    ),
     (["bench", "--json", "no/such/folder/bench.json"], "give a file in a folder that exists"),
     (["bench", "--json", "."], "give a file in a folder that exists"),
     (["list", "methods"], "'methods' is not a kind of component"),

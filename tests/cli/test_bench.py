@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 from sphframe.benchmark import bench as benchmark
 from sphframe.benchmark.memory import MemoryCost
 from sphframe.benchmark.methods import MethodCost
+from sphframe.benchmark.peak import Peak
 from sphframe.benchmark.report import Report
 from sphframe.benchmark.start_up import StartUp
 from sphframe.benchmark.timing import Spread
@@ -37,6 +38,7 @@ def test_every_table_is_printed(monkeypatch: pytest.MonkeyPatch) -> None:
         {"processor": "abacus"},
         (300,),
         (1, 2),
+        Peak(two, two),
         benchmark([300], [1], ["rest"], repeats=1).steps,
         [MethodCost("nearest", 300, 10, 20.0, two, two, two.times(1e-6), two)],
         [MemoryCost(2, 300, 100, {"lists": 111.0, "system": 222.0}, 333.0, None)],
