@@ -114,14 +114,18 @@ class _Bench:
         self._writer = NetCDFWriter(folder / "bench.nc")
         self._writer.sphframe_run_started(simulation)
         bare = BareLoops(simulation) if simulation.case.dimension == 2 else None
+        # the evaluation beside the loops that it is compared with; output last, as libraries that it uses may keep
+        # their own threads spinning for a while
         self._alone: dict[str, Callable[[], object]] = {
-            "evaluation": lambda: simulation.system.evaluate(simulation.time),
+            "evaluation": lambda: simulation.system.evaluate(simulation.time)
+        }
+        if bare is not None:
+            self._alone |= {"bare gradient": bare.find_gradient, "bare rates": bare.find_rates}
+        self._alone |= {
             "list build": simulation._find_neighbours,
             "sample": lambda: self._writer.sphframe_probes_due(simulation),
             "frame": self._write_frame,
         }
-        if bare is not None:
-            self._alone |= {"bare gradient": bare.find_gradient, "bare rates": bare.find_rates}
         self._loops = {name: loops_for(function, _SHORTEST) for name, function in self._alone.items()}
 
     def close(self) -> None:
