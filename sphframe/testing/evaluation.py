@@ -26,7 +26,7 @@ class Outcome:
 
     @property
     def magnitude(self) -> float:
-        """sum_j |Phi_j|, at least 1."""
+        """``sum_j |Phi_j|``, at least 1."""
         return max(1.0, float(np.sum(np.abs(self.weights))))
 
 
