@@ -23,6 +23,7 @@ def html_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[objec
 
     frame = pd.DataFrame([[str(cell) for cell in row] for row in rows], columns=list(columns))
     with pd.option_context("display.max_colwidth", None):
-        table = frame.to_html(index=False, header=any(columns), border=0, justify="left", max_rows=None)
+        table = frame.to_html(index=False, header=any(columns), border=0, max_rows=None)
+    table = table.replace("<th>", '<th style="text-align: left">')  # notebooks would put headings to the right
     line = f"<div>{escape(about)}</div>" if about else ""
     return f"<div><b>{escape(title)}</b>{line}{table}</div>"
