@@ -9,6 +9,7 @@ project = "sphframe"
 author = "The sphframe developers"
 version = release = sphframe.__version__
 html_theme = "furo"
+html_show_copyright = False
 html_title = f"sphframe {version}"
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.viewcode"]
 myst_enable_extensions = ["dollarmath", "colon_fence"]

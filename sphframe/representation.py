@@ -16,13 +16,14 @@ def html_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[objec
 
     Examples
     --------
-    >>> print(html_table("a < b", ["name"], [["c & d"]]).split(">")[1])
-    a &lt; b</b
+    >>> [text in html_table("a < b", ["name"], [["c & d"]]) for text in ("a &lt; b", "<td>c &amp; d</td>")]
+    [True, True]
     """
     import pandas as pd
 
     frame = pd.DataFrame([[str(cell) for cell in row] for row in rows], columns=list(columns))
     with pd.option_context("display.max_colwidth", None):
-        table = frame.to_html(index=False, header=any(columns), border=0, justify="left", max_rows=None)
+        table = frame.to_html(index=False, header=any(columns), border=0, max_rows=None)
+    table = table.replace("<th>", '<th style="text-align: left">')  # notebooks would put headings to the right
     line = f"<div>{escape(about)}</div>" if about else ""
     return f"<div><b>{escape(title)}</b>{line}{table}</div>"
