@@ -2,7 +2,7 @@
 
 Cells are numbered along the last axis, row after row, every other row backwards: consecutive cells touch, and so do
 particles sorted by cell. The cells of one row that a box overlaps are always one range of numbers. A row is as wide as
-the cluster of particles that is to share a neighbour list, its cells are a quarter as long: so consecutive particles
+the cluster of particles that is to share a neighbour list, its cells are half as long: so consecutive particles
 fill a cube, and not a streak.
 """
 
