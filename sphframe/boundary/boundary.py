@@ -42,7 +42,7 @@ class Boundary:
     points: (g, dim) where the method evaluates the fluid; ``lifts`` (g, dim) from there to the ghosts.
     wall: (g,) index of each ghost's wall; ``body`` (g,) index of its body, -1 at rest.
     statuses: (g,) :class:`Status` of the last filling.
-    displacement: the furthest that a wall has moved since :meth:`remember`, m.
+    displacement: the furthest that a ghost or an evaluation point has moved since :meth:`remember`, m.
     """
 
     def __init__(
@@ -129,7 +129,7 @@ class Boundary:
             acceleration = np.array([motion.acceleration for motion in motions])
             moved = move_ghosts(
                 self.drawn.position, self.drawn.mirror, self.reflection_drawn, self.body, self.centres,
-                position, velocity, acceleration, self._remembered,
+                position, velocity, acceleration, self._remembered, self.points, self._remembered_points,
                 self.position, self.mirror, self.reflection, self.velocity, self.acceleration,
             )  # fmt: skip
             self.displacement = float(moved)
@@ -138,6 +138,11 @@ class Boundary:
         np.multiply(self.acceleration, -density, out=self.driving)
         self.driving += driving_force
         rows[:, : self.dim] = self.position
+
+    @property
+    def speed(self) -> float:
+        """Largest speed of a wall, m/s."""
+        return float(np.sqrt(np.square(self.velocity).sum(axis=1).max(initial=0.0))) if self.bodies else 0.0
 
     def corner_shares(self, motions: Sequence[Motion]) -> tuple[NDArray[np.int64], Array]:
         """Other wall (g,) that answers for part of each ghost's force, or -1, and its normal (g, dim)."""

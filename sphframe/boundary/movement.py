@@ -17,12 +17,12 @@ __all__ = ["move_ghosts"]
 @numba.njit(cache=True, error_model="numpy")
 def move_ghosts(  # type: ignore[no-untyped-def]
     drawn, drawn_mirror, drawn_reflection, ghost_body, centres, positions, velocities, accelerations, remembered,
-    position, mirror, reflection, velocity, acceleration,
+    points, remembered_points, position, mirror, reflection, velocity, acceleration,
 ):  # fmt: skip
     """Write the last five arrays for ghosts whose ``ghost_body`` is not -1; return the largest displacement, m.
 
-    ``positions``, ``velocities``, ``accelerations`` (bodies, 3) are generalised coordinates; the displacement is
-    measured from ``remembered`` (g, dim).
+    ``positions``, ``velocities``, ``accelerations`` (bodies, 3) are generalised coordinates; the displacement is that
+    of ghosts from ``remembered`` and of ``points``, one of the arrays written, from ``remembered_points`` (g, dim).
     """
     dim = drawn.shape[1]
     largest = 0.0
@@ -68,7 +68,9 @@ def move_ghosts(  # type: ignore[no-untyped-def]
                 velocity[g, k] = velocities[b, k]
                 acceleration[g, k] = accelerations[b, k]
         distance2 = 0.0
+        point_distance2 = 0.0
         for k in range(dim):
             distance2 += (position[g, k] - remembered[g, k]) ** 2
-        largest = max(largest, distance2)
+            point_distance2 += (points[g, k] - remembered_points[g, k]) ** 2
+        largest = max(largest, distance2, point_distance2)
     return math.sqrt(largest)

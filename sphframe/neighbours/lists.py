@@ -1,10 +1,11 @@
-"""Neighbours: lists of all particles within the search radius, good until something has crossed half the skin.
+"""Neighbours: lists of all particles within the search radius, good until two may have approached by the skin.
 
 A list serves a cluster of consecutive particles, which touch each other since particles are kept in spatial order: it
 holds whatever is within the search radius of the box around them, first fluid particles and then ghosts. A pair loop
 copies a cluster's neighbourhood once and then reads it from consecutive memory for each member: that costs less than
 the pairs too many, which lie beyond the kernel support and get no weight. The search radius is the kernel support plus
-the skin, so the lists stay complete while no two particles have approached each other by more than the skin.
+the skin, so the lists stay complete while no two particles have approached each other by more than the skin: while
+nothing has moved further than that against the walls, and no two particles near each other against one another.
 """
 
 import math
@@ -13,14 +14,12 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from sphframe.neighbours.approach import PARTS, relative_displacement
 from sphframe.neighbours.cells import Grid, bounding_box, cell_number, grid_around, row_number, sort_by_cell
 
 __all__ = ["NeighbourLists"]
 
 Array = NDArray[np.float64]
-
-_PARTS = 2
-"""of the rows that are sorted at the same time"""
 
 
 class NeighbourLists:
@@ -67,8 +66,9 @@ class NeighbourLists:
         self._ghost_cells = np.zeros(ghost_count, np.int64)
         self._ghost_order = np.zeros(ghost_count, np.int64)
         self._ghost_starts = np.zeros(2, np.int64)
-        self._tallies = np.zeros((_PARTS, 1), np.int64)
+        self._tallies = np.zeros((PARTS, 1), np.int64)
         self._lower, self._upper = np.zeros(dim), np.zeros(dim)
+        self._boxes = np.zeros((PARTS, 1, 6))
 
     @property
     def radius(self) -> float:
@@ -80,7 +80,7 @@ class NeighbourLists:
         bounding_box(rows, self.fluid_count, self.dim, self._lower, self._upper)
         self.grid = grid_around(self._lower, self._upper, self.width, 1.1 * self.radius)  # with all ghosts that matter
         if self._tallies.shape[1] != self.grid.count:
-            self._tallies = np.zeros((_PARTS, self.grid.count), np.int64)
+            self._tallies = np.zeros((PARTS, self.grid.count), np.int64)
             self.starts = np.zeros(self.grid.count + 1, np.int64)
             self._ghost_starts = np.zeros(self.grid.count + 1, np.int64)
         self._sort(rows, self._cells, self.starts, self._order)
@@ -104,6 +104,23 @@ class NeighbourLists:
             self.fluid = np.empty((len(self.fluid), _capacity(longest)), np.uint32)
         self.points = self._around(evaluation_points, rows, self.points, self.point_counts)
         self.rebuilds += 1
+
+    def last(self, rows: Array, reference: Array, moved: float, walls: float, ahead: float) -> bool:
+        """Return whether the lists stay complete for fluid ``rows`` that lay at ``reference`` (n, dim) when they were
+        built, have ``moved`` at most so much since, m, and will move ``ahead`` more at most, and for walls that will
+        have moved by ``walls`` at most."""
+        if moved + ahead + walls > self.skin:
+            return False
+        if 2.0 * (moved + ahead) <= self.skin:
+            return True
+        edge = self.radius + self.skin  # what lay further apart cannot have come within the support
+        shape = np.ones(3, np.int64)
+        shape[: self.dim] = np.floor((self._upper - self._lower) / edge) + 3
+        cubes = int(shape.prod())
+        if self._boxes.shape[1] < cubes:
+            self._boxes = np.empty((PARTS, cubes, 6))
+        apart = relative_displacement(rows, reference, self.dim, self._lower, edge, shape, self._boxes[:, :cubes])
+        return bool(apart + 2.0 * ahead <= self.skin)
 
     def around(self, points: Array, rows: Array) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
         """Return lists (k, capacity) of the fluid near any ``points`` (k, dim) and their lengths (k,)."""

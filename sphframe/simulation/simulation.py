@@ -174,8 +174,7 @@ class Simulation:
         began = clock.perf_counter()
         with self._dating_errors():
             self.time_step = self._next_time_step(self._speed)
-            travelled = max(self._moved, self.boundary.displacement) + 1.2 * self._speed * self.time_step
-            if 2.0 * travelled > self.lists.skin:
+            if not self._lists_last(1.2 * self.time_step):
                 self._find_neighbours()
             self.between_steps = False
             with naming_component(self.case, running=True):
@@ -203,6 +202,11 @@ class Simulation:
         self._speed, self._moved, self.densities_outside = seen.speed, seen.moved, seen.densities
         if seen.outside is not None:
             self._remove(seen.outside)
+
+    def _lists_last(self, interval: float) -> bool:
+        """Whether the neighbour lists stay complete if everything keeps its speed for ``interval``, s."""
+        walls = self.boundary.displacement + self.boundary.speed * interval
+        return self.lists.last(self.system.rows, self._reference, self._moved, walls, self._speed * interval)
 
     def _next_time_step(self, speed: float) -> float:
         case, integrator = self.case, self.components["integrator"]

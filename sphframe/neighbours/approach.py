@@ -1,0 +1,75 @@
+"""Neighbours: how far particles near each other have moved apart, which is what wears out a list.
+
+Water that flows as one body leaves its neighbourhoods as they are, however fast it flows.
+"""
+
+import math
+
+import numba
+import numpy as np
+
+from sphframe.interfaces.scratch import local_array
+
+__all__ = ["PARTS", "relative_displacement"]
+
+PARTS = 2
+"""of the particles that are looked at at the same time"""
+
+
+@numba.njit(parallel=True, cache=True, error_model="numpy")
+def relative_displacement(rows, reference, dim, origin, edge, shape, boxes):  # type: ignore[no-untyped-def]
+    """Return a bound, m, on how far any two of the particles have moved relative to each other that lay less than
+    ``edge`` apart at ``reference`` (n, dim).
+
+    It is the largest diagonal of the boxes around the displacements in each cube of side ``edge`` with those around it.
+    ``shape`` (3,) counts the cubes from ``origin`` (dim,) on, with one more on all sides. ``boxes`` (parts, cubes, 6)
+    is scratch: the least displacements of the particles of each part, and the least of their negatives; the result does
+    not depend on the number of parts.
+    """
+    n = reference.shape[0]
+    parts = boxes.shape[0]
+    scale = 1.0 / edge
+    for part in numba.prange(parts):
+        box = boxes[part]
+        box[:] = math.inf
+        last = np.uint64(0)
+        least = local_array(6)
+        least[:] = math.inf
+        for i in range(np.uint64(part * n // parts), np.uint64((part + 1) * n // parts)):
+            cube = 0
+            for k in range(dim):
+                cube = cube * shape[k] + int((reference[i, k] - origin[k]) * scale) + 1
+            if np.uint64(cube) != last:  # most particles lie in the cube of the one before
+                for q in range(6):
+                    box[last, q] = least[q]
+                last = np.uint64(cube)
+                for q in range(6):
+                    least[q] = box[last, q]
+            for k in range(dim):
+                moved = rows[i, k] - reference[i, k]
+                least[k] = min(least[k], moved)
+                least[3 + k] = min(least[3 + k], -moved)
+        for q in range(6):
+            box[last, q] = least[q]
+    row = shape[dim - 1]
+    layer = shape[1] * row if dim == 3 else 0
+    largest = 0.0
+    for cube in numba.prange(boxes.shape[1]):
+        inhabited = False
+        for part in range(parts):
+            inhabited = inhabited or boxes[part, cube, 0] < math.inf
+        if not inhabited:
+            continue
+        least = local_array(6)
+        least[:] = math.inf
+        for a in range(2 if dim == 3 else 1):  # a pair of cubes is met from one of the two
+            for b in range(-1 if dim == 3 else 0, 2):
+                for near in range(np.uint64(cube + a * layer + b * row - 1), np.uint64(cube + a * layer + b * row + 2)):
+                    for part in range(parts):
+                        for q in range(6):
+                            least[q] = min(least[q], boxes[part, near, q])
+        diagonal2 = 0.0
+        for k in range(dim):
+            diagonal2 += (least[k] + least[3 + k]) ** 2
+        largest = max(largest, diagonal2)
+    return math.sqrt(largest)
