@@ -97,7 +97,7 @@ def test_lists_that_last_are_complete(dim, seed, fluid, stream, shear, noise):
     furthest = float(np.linalg.norm(moved, axis=1).max())
     near = np.linalg.norm(reference[:, None] - reference, axis=2) < support + 2.0 * skin
     apart = np.linalg.norm(moved[:, None] - moved, axis=2)
-    if furthest + ahead > skin or 2.0 * (furthest + ahead) > skin and apart[near].max() + 2.0 * ahead > skin:
+    if furthest + ahead > skin or (2.0 * (furthest + ahead) > skin and apart[near].max() + 2.0 * ahead > skin):
         assert not lists.last(rows, reference, furthest, 0.0, ahead)
     if not lists.last(rows, reference, furthest, 0.0, ahead):
         return
