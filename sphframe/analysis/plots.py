@@ -157,7 +157,8 @@ def _draw_energies(axes: "Axes", dataset: xr.Dataset) -> None:
     for name, style in (("kinetic", "-"), ("potential", "-"), ("internal", "-"), ("total", "--")):
         colour = "black" if name == "total" else None
         axes.plot(t, dataset[f"{name}_energy"].values / start, style, linewidth=1.1, label=name, color=colour)
-    axes.set(xlim=_from_start(t), ylim=(-0.03, 1.35))
+    highest = max(1.0, float(dataset["total_energy"].max()) / start)
+    axes.set(xlim=_from_start(t), ylim=(-0.03, 1.35 * highest))
     axes.set_xlabel("t (s)", fontsize=10)
     axes.set_ylabel("energy / initial total", fontsize=10)
     axes.legend(fontsize=9, frameon=False, ncols=2, loc="upper right")

@@ -11,6 +11,7 @@ from sphframe.errors import InputError, OutputError
 from sphframe.output import open_dataset
 from sphframe.output.provenance import distributions, software
 from sphframe.registry.nearest import did_you_mean
+from sphframe.reproduction.chapter import Table
 from sphframe.reproduction.engine import Watch, carry_out
 from sphframe.reproduction.report import write_report
 from sphframe.reproduction.sections import SECTIONS, Section
@@ -86,10 +87,12 @@ def reproduce(
         try:
             series.absent.clear()
             chapter = section.chapter(opened, series, quick)
+            stopped = _stopped(name, opened)
         finally:
             for dataset in opened.values():
                 dataset.close()
-        chapters.append(dataclasses.replace(chapter, absent=tuple(series.absent)))
+        tables = [*chapter.tables, *([stopped] if stopped.rows else [])]
+        chapters.append(dataclasses.replace(chapter, tables=tables, absent=tuple(series.absent)))
         for task in tasks[name]:
             versions |= distributions(task.case())
     return write_report(
@@ -99,6 +102,16 @@ def reproduce(
         preface=[_SOURCE, *([_QUICK] if quick else [])],
         facts={"sphframe": sphframe.__version__, **dict(sorted(versions.items())), **software()},
     )
+
+
+def _stopped(section: str, runs: Mapping[str, xr.Dataset]) -> Table:
+    """The runs that did not come to their end, and what they said."""
+    rows = [
+        {"run": label, "what it said": dataset.attrs["run_message"]}
+        for label, dataset in runs.items()
+        if dataset.attrs.get("completed", "yes") != "yes"
+    ]
+    return Table(f"{section.replace('-', '_')}_stopped", "Runs that were stopped by their guards", rows)
 
 
 def _open(path: Path) -> xr.Dataset:

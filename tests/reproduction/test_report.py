@@ -7,8 +7,9 @@ from types import ModuleType
 
 import pytest
 
-from sphframe.reproduction import reproduce
+from sphframe.reproduction import Section, reproduce
 from sphframe.reproduction.series import Reference
+from sphframe.reproduction.tasks import RunTask
 
 browser = importlib.util.module_from_spec(
     spec := importlib.util.spec_from_file_location("sphframe_browser", Path(__file__).with_name("browser.py"))  # type: ignore[arg-type]
@@ -72,3 +73,14 @@ def test_reference_series_are_noted_when_absent(tmp_path: Path) -> None:
     assert reference.get("missing") is None
     assert len(reference.absent) == 1
     assert "missing" in reference.absent[0]
+
+
+def test_a_run_that_was_stopped_says_why(tiny: ModuleType, cluster: str, tmp_path: Path) -> None:
+    broken = tiny.tank(courant_number=3.0)
+    section = Section("broken-tank", lambda quick: [RunTask.of("broken", broken)], tiny.chapter)
+    report = reproduce(tmp_path, sections={"broken-tank": section}, scheduler=cluster)
+    with (tmp_path / "tables" / "broken_tank_stopped.csv").open(newline="") as file:
+        (row,) = csv.DictReader(file)
+    assert row["run"] == "broken"
+    assert "courant_number" in row["what it said"]
+    assert row["what it said"] in browser.Page(report.read_text()).text

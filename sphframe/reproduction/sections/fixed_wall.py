@@ -147,7 +147,7 @@ def _histories(runs: Mapping[str, xr.Dataset], variants: Sequence[Variant], name
             axes.plot(
                 t, p, color=colour(variant.method), linewidth=0.8, linestyle=":" if mirror else "-", label=variant.label
             )
-        tidy(axes, ylabel=f"P{k} (kPa)", ylim=(-0.5, 6.0), xlim=(start, start + 2.2))
+        tidy(axes, ylabel=f"P{k} (kPa)", ylim=(0.0, 5.0), xlim=(start, start + 2.2))
     figure.axes[1].set_xlabel("t (s)")
     figure.axes[0].legend(fontsize=8, frameon=False, ncols=2, loc="upper left")
     return picture(name, f"{caption}.", figure)
