@@ -48,7 +48,7 @@ class Component(BaseModel):
     def _from_name_or_table(cls, given: Any) -> Any:
         if isinstance(given, str):
             return {"name": given}
-        if isinstance(given, Mapping) and "name" in given:
+        if isinstance(given, Mapping) and "name" in given and not isinstance(given.get("options"), Mapping):
             return {"name": given["name"], "options": {k: v for k, v in given.items() if k != "name"}}
         return given
 

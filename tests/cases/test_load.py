@@ -11,7 +11,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from sphframe.cases import CaseWarning, Custom, load_case, read_toml
+from sphframe.cases import CaseWarning, Component, Custom, load_case, read_toml
 from sphframe.cases.dam_break import DamBreak
 from sphframe.cases.hydrostatic_tank import HydrostaticTank
 from sphframe.errors import InputError, PluginError, SphframeError
@@ -57,6 +57,13 @@ def test_dotted_override_sets_an_option_of_the_chosen_component() -> None:
     assert by_default.interpolator.model_dump() == {"name": "improved-shepard", "mu": 2.0}
     chosen = load_case("dam-break", overrides={"interpolator.form": "printed", "interpolator": "sfdi"})
     assert chosen.interpolator.model_dump() == {"name": "sfdi", "form": "printed"}
+
+
+def test_a_component_is_a_name_a_table_or_an_object() -> None:
+    table = {"name": "sfdi", "form": "printed"}
+    for given in (table, Component(name="sfdi", options={"form": "printed"}), Component.model_validate(table)):
+        assert load_case("dam-break", overrides={"interpolator": given}).interpolator.options == {"form": "printed"}
+    assert load_case("dam-break", overrides={"interpolator": "sfdi"}).interpolator == Component(name="sfdi")
 
 
 def test_custom_case_from_toml(tmp_path: Path) -> None:
