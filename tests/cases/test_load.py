@@ -61,8 +61,8 @@ def test_dotted_override_sets_an_option_of_the_chosen_component() -> None:
 
 def test_a_component_is_a_name_a_table_or_an_object() -> None:
     table = {"name": "sfdi", "form": "printed"}
-    for given in (table, Component(name="sfdi", options={"form": "printed"}), Component.model_validate(table)):
-        assert load_case("dam-break", overrides={"interpolator": given}).interpolator.options == {"form": "printed"}
+    for component in (table, Component(name="sfdi", options={"form": "printed"}), Component.model_validate(table)):
+        assert load_case("dam-break", overrides={"interpolator": component}).interpolator.options == {"form": "printed"}
     assert load_case("dam-break", overrides={"interpolator": "sfdi"}).interpolator == Component(name="sfdi")
 
 
