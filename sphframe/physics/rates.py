@@ -71,6 +71,7 @@ def fluid_sums(  # type: ignore[no-untyped-def]
         xz = local_array(LANES)
         yz = local_array(LANES)
         zz = local_array(LANES)
+        diffused_by_fluid = local_array(LANES)
         for a in range(LANES):
             i = first + min(a, present - 1)  # lanes that are left over do the last particle's work again
             x[a] = rows[i, 0]
@@ -88,86 +89,70 @@ def fluid_sums(  # type: ignore[no-untyped-def]
             fx[a] = fy[a] = fz[a] = 0.0
             bx[a] = by[a] = bz[a] = 0.0
             xx[a] = xy[a] = yy[a] = xz[a] = yz[a] = zz[a] = 0.0
-        for k in range(fluid):
-            j = lists[c, k]
-            xj = rows[j, 0]
-            yj = rows[j, 1]
-            zj = rows[j, DIM - 1]
-            uj = rows[j, DIM]
-            vj = rows[j, DIM + 1]
-            wj = rows[j, 2 * DIM - 1]
-            density_j = rows[j, 2 * DIM]
-            pressure_j = rows[j, 2 * DIM + 1]
-            scale = -gradient_scale * rows[j, 2 * DIM + 2]
-            gxj = gradient[j, 0]
-            gyj = gradient[j, 1]
-            gzj = gradient[j, DIM - 1]
-            for a in range(LANES):
-                dx = xj - x[a]
-                dy = yj - y[a]
-                r2 = fma(dx, dx, dy * dy)
-                if DIM == 3:
-                    dz = zj - z[a]
-                    r2 = fma(dz, dz, r2)
-                weight = GRADIENT(r2 * per_h2) * scale
-                weight = weight if r2 < limit else 0.0  # a choice, not a branch: the loop vectorises
-                approach = fma(uj - u[a], dx, (vj - v[a]) * dy)
-                if DIM == 3:
-                    approach = fma(wj - w[a], dz, approach)
-                if CONTINUITY:
-                    sloped = fma(gx[a] + gxj, dx, (gy[a] + gyj) * dy)
+        for kind in range(2):
+            for k in range(0 if kind == 0 else fluid, fluid if kind == 0 else both):
+                j = lists[c, k]
+                xj = rows[j, 0]
+                yj = rows[j, 1]
+                zj = rows[j, DIM - 1]
+                uj = rows[j, DIM]
+                vj = rows[j, DIM + 1]
+                wj = rows[j, 2 * DIM - 1]
+                density_j = rows[j, 2 * DIM]
+                pressure_j = rows[j, 2 * DIM + 1]
+                scale = -gradient_scale * rows[j, 2 * DIM + 2]
+                m = j if j < n else 0  # ghosts have no gradient, and what is diffused with them is not read
+                gxj = gradient[m, 0]
+                gyj = gradient[m, 1]
+                gzj = gradient[m, DIM - 1]
+                for a in range(LANES):
+                    dx = xj - x[a]
+                    dy = yj - y[a]
+                    r2 = fma(dx, dx, dy * dy)
                     if DIM == 3:
-                        sloped = fma(gz[a] + gzj, dz, sloped)
-                    compression[a] = fma(weight, approach, compression[a])
-                    diffused[a] = fma(weight, diffusive_flux(density_j - density[a], sloped), diffused[a])
-                else:
-                    stress = weight * pair_stress(pressure[a] + pressure_j, viscosity, approach, r2)
-                    fx[a] = fma(stress, dx, fx[a])
-                    fy[a] = fma(stress, dy, fy[a])
+                        dz = zj - z[a]
+                        r2 = fma(dz, dz, r2)
+                    weight = GRADIENT(r2 * per_h2) * scale
+                    weight = weight if r2 < limit else 0.0  # a choice, not a branch: the loop vectorises
+                    approach = fma(uj - u[a], dx, (vj - v[a]) * dy)
                     if DIM == 3:
-                        fz[a] = fma(stress, dz, fz[a])
-                    rise = weight * (density_j - density[a])
-                    wx = weight * dx
-                    wy = weight * dy
-                    bx[a] = fma(rise, dx, bx[a])
-                    by[a] = fma(rise, dy, by[a])
-                    xx[a] = fma(wx, dx, xx[a])
-                    xy[a] = fma(wx, dy, xy[a])
-                    yy[a] = fma(wy, dy, yy[a])
-                    if DIM == 3:
-                        bz[a] = fma(rise, dz, bz[a])
-                        xz[a] = fma(wx, dz, xz[a])
-                        yz[a] = fma(wy, dz, yz[a])
-                        zz[a] = fma(weight * dz, dz, zz[a])
-        for k in range(fluid, both):
-            j = lists[c, k]
-            xj = rows[j, 0]
-            yj = rows[j, 1]
-            zj = rows[j, DIM - 1]
-            uj = rows[j, DIM]
-            vj = rows[j, DIM + 1]
-            wj = rows[j, 2 * DIM - 1]
-            pressure_j = rows[j, 2 * DIM + 1]
-            scale = -gradient_scale * rows[j, 2 * DIM + 2]
-            for a in range(LANES):
-                dx = xj - x[a]
-                dy = yj - y[a]
-                r2 = fma(dx, dx, dy * dy)
-                approach = fma(uj - u[a], dx, (vj - v[a]) * dy)
-                if DIM == 3:
-                    dz = zj - z[a]
-                    r2 = fma(dz, dz, r2)
-                    approach = fma(wj - w[a], dz, approach)
-                weight = GRADIENT(r2 * per_h2) * scale
-                weight = weight if r2 < limit else 0.0
-                if CONTINUITY:
-                    compression[a] = fma(weight, approach, compression[a])
-                else:
-                    stress = weight * pair_stress(pressure[a] + pressure_j, viscosity, approach, r2)
-                    fx[a] = fma(stress, dx, fx[a])
-                    fy[a] = fma(stress, dy, fy[a])
-                    if DIM == 3:
-                        fz[a] = fma(stress, dz, fz[a])
+                        approach = fma(wj - w[a], dz, approach)
+                    if CONTINUITY:
+                        sloped = fma(gx[a] + gxj, dx, (gy[a] + gyj) * dy)
+                        if DIM == 3:
+                            sloped = fma(gz[a] + gzj, dz, sloped)
+                        compression[a] = fma(weight, approach, compression[a])
+                        diffused[a] = fma(weight, diffusive_flux(density_j - density[a], sloped), diffused[a])
+                    else:
+                        stress = weight * pair_stress(pressure[a] + pressure_j, viscosity, approach, r2)
+                        fx[a] = fma(stress, dx, fx[a])
+                        fy[a] = fma(stress, dy, fy[a])
+                        if DIM == 3:
+                            fz[a] = fma(stress, dz, fz[a])
+                        rise = weight * (density_j - density[a])
+                        wx = weight * dx
+                        wy = weight * dy
+                        bx[a] = fma(rise, dx, bx[a])
+                        by[a] = fma(rise, dy, by[a])
+                        xx[a] = fma(wx, dx, xx[a])
+                        xy[a] = fma(wx, dy, xy[a])
+                        yy[a] = fma(wy, dy, yy[a])
+                        if DIM == 3:
+                            bz[a] = fma(rise, dz, bz[a])
+                            xz[a] = fma(wx, dz, xz[a])
+                            yz[a] = fma(wy, dz, yz[a])
+                            zz[a] = fma(weight * dz, dz, zz[a])
+            if kind == 0:  # what follows is of the fluid alone
+                for a in range(present):
+                    i = first + a
+                    if CONTINUITY:
+                        diffused_by_fluid[a] = diffused[a]
+                    elif DIM == 2:
+                        gradient[i, 0], gradient[i, 1] = renormalised_2d(bx[a], by[a], xx[a], xy[a], yy[a])
+                    else:
+                        gradient[i, 0], gradient[i, 1], gradient[i, 2] = renormalised_3d(
+                            bx[a], by[a], bz[a], xx[a], xy[a], yy[a], xz[a], yz[a], zz[a]
+                        )
         for a in range(present):
             i = first + a
             rates[i, 0] = u[a]
@@ -175,16 +160,10 @@ def fluid_sums(  # type: ignore[no-untyped-def]
             if DIM == 3:
                 rates[i, 2] = w[a]
             if CONTINUITY:
-                rates[i, 2 * DIM] = diffusion * diffused[a] - density[a] * compression[a]
+                rates[i, 2 * DIM] = diffusion * diffused_by_fluid[a] - density[a] * compression[a]
             else:
                 rates[i, DIM] = fx[a] / density[a]
                 rates[i, DIM + 1] = fy[a] / density[a]
                 if DIM == 3:
                     rates[i, DIM + 2] = fz[a] / density[a]
                 rates[i, 2 * DIM - 1] -= gravity
-                if DIM == 2:
-                    gradient[i, 0], gradient[i, 1] = renormalised_2d(bx[a], by[a], xx[a], xy[a], yy[a])
-                else:
-                    gradient[i, 0], gradient[i, 1], gradient[i, 2] = renormalised_3d(
-                        bx[a], by[a], bz[a], xx[a], xy[a], yy[a], xz[a], yz[a], zz[a]
-                    )
