@@ -45,6 +45,9 @@ BALANCED = True
 SCALED = True
 EXTRAPOLATED = False
 
+BLOCK = 16
+"""of consecutive ghosts, which see the same particles"""
+
 
 def VALUE(q: Any) -> Any:  # noqa: N802
     """Stand for w(q) of the kernel."""
@@ -78,6 +81,7 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
     per_h = SUPPORT / support
     ghosts = points.shape[0]
     chunks = offset_scratch.shape[0]
+    blocks = -(-ghosts // BLOCK)
     for chunk in numba.prange(chunks):
         offsets = offset_scratch[chunk]
         distances = column_scratch[chunk, 0]
@@ -88,88 +92,89 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
         lift = lift_scratch[chunk]
         mean_offset = local_array(DIM)
         mean_velocity = local_array(DIM)
-        for g in range(chunk, ghosts, chunks):  # the wet ghosts are neighbours: dealt out in turn, threads share them
-            px = points[g, 0]
-            py = points[g, 1]
-            pz = points[g, DIM - 1]
-            n = 0
-            for k in range(counts[g]):
-                j = lists[g, k]
-                dx = rows[j, 0] - px
-                dy = rows[j, 1] - py
-                r2 = dx * dx + dy * dy
-                if DIM == 3:
-                    dz = rows[j, 2] - pz
-                    r2 += dz * dz
-                offsets[n, 0] = dx
-                offsets[n, 1] = dy
-                if DIM == 3:
-                    offsets[n, 2] = dz
-                distances[n] = r2
-                volumes[n] = rows[j, 2 * DIM + 2]
-                members[n] = j
-                n += 1 if r2 < limit else 0  # stays only if it is near: no branch to be mispredicted
-            for k in range(n):
-                distances[k] = math.sqrt(distances[k])
-                values[k] = kernel_scale * VALUE(distances[k] * per_h)
+        for block in range(chunk, blocks, chunks):  # the wet ghosts are neighbours: dealt out, threads share them
+            for g in range(block * BLOCK, min((block + 1) * BLOCK, ghosts)):
+                px = points[g, 0]
+                py = points[g, 1]
+                pz = points[g, DIM - 1]
+                n = 0
+                for k in range(counts[g]):
+                    j = lists[g, k]
+                    dx = rows[j, 0] - px
+                    dy = rows[j, 1] - py
+                    r2 = dx * dx + dy * dy
+                    if DIM == 3:
+                        dz = rows[j, 2] - pz
+                        r2 += dz * dz
+                    offsets[n, 0] = dx
+                    offsets[n, 1] = dy
+                    if DIM == 3:
+                        offsets[n, 2] = dz
+                    distances[n] = r2
+                    volumes[n] = rows[j, 2 * DIM + 2]
+                    members[n] = j
+                    n += 1 if r2 < limit else 0  # stays only if it is near: no branch to be mispredicted
+                for k in range(n):
+                    distances[k] = math.sqrt(distances[k])
+                    values[k] = kernel_scale * VALUE(distances[k] * per_h)
 
-            status = DRY
-            extrapolated = 0.0
-            if n > 0:
-                for d in range(DIM):
-                    lift[d] = lifts[g, d] if EXTRAPOLATED else 0.0
-                status = WEIGHTS(
-                    offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n]
-                )  # fmt: skip
-                if status != OK:
-                    FALLBACK(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
-                elif EXTRAPOLATED:
-                    for k in range(n):
-                        extrapolated += weights[k] * rows[members[k], 2 * DIM + 1]
+                status = DRY
+                extrapolated = 0.0
+                if n > 0:
                     for d in range(DIM):
-                        lift[d] = 0.0
-                    WEIGHTS(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
-            statuses[g] = status
+                        lift[d] = lifts[g, d] if EXTRAPOLATED else 0.0
+                    status = WEIGHTS(
+                        offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n]
+                    )  # fmt: skip
+                    if status != OK:
+                        FALLBACK(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
+                    elif EXTRAPOLATED:
+                        for k in range(n):
+                            extrapolated += weights[k] * rows[members[k], 2 * DIM + 1]
+                        for d in range(DIM):
+                            lift[d] = 0.0
+                        WEIGHTS(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
+                statuses[g] = status
 
-            total = 0.0
-            pressure = 0.0
-            for d in range(DIM):
-                mean_offset[d] = 0.0
-                mean_velocity[d] = 0.0
-            for k in range(n):
-                j = members[k]
-                total += weights[k]
-                pressure += weights[k] * rows[j, 2 * DIM + 1]
+                total = 0.0
+                pressure = 0.0
                 for d in range(DIM):
-                    mean_offset[d] += weights[k] * offsets[k, d]
-                    mean_velocity[d] += weights[k] * rows[j, DIM + d]
-            if EXTRAPOLATED and status == OK:
-                pressure = extrapolated
-            elif BALANCED:
-                for d in range(DIM):
-                    pressure += driving_forces[g, d] * (total * lifts[g, d] - mean_offset[d])
-            elif n > 0:
-                for d in range(DIM):
-                    pressure += driving_forces[g, d] * lifts[g, d]
-            pressure = max(pressure, 0.0)
+                    mean_offset[d] = 0.0
+                    mean_velocity[d] = 0.0
+                for k in range(n):
+                    j = members[k]
+                    total += weights[k]
+                    pressure += weights[k] * rows[j, 2 * DIM + 1]
+                    for d in range(DIM):
+                        mean_offset[d] += weights[k] * offsets[k, d]
+                        mean_velocity[d] += weights[k] * rows[j, DIM + d]
+                if EXTRAPOLATED and status == OK:
+                    pressure = extrapolated
+                elif BALANCED:
+                    for d in range(DIM):
+                        pressure += driving_forces[g, d] * (total * lifts[g, d] - mean_offset[d])
+                elif n > 0:
+                    for d in range(DIM):
+                        pressure += driving_forces[g, d] * lifts[g, d]
+                pressure = max(pressure, 0.0)
 
-            slope = 1.0  # s above; the lift is 2 d n, and d_j = d - (x_j - x_M).n
-            if SCALED and n > 0:
-                span = 0.0
-                moment = 0.0
-                for d in range(DIM):
-                    span += lifts[g, d] * lifts[g, d]
-                    moment += mean_offset[d] * lifts[g, d]
-                if span > 0.0:
-                    slope = span / max(span - 2.0 * moment, 0.5 * span)
+                slope = 1.0  # s above; the lift is 2 d n, and d_j = d - (x_j - x_M).n
+                if SCALED and n > 0:
+                    span = 0.0
+                    moment = 0.0
+                    for d in range(DIM):
+                        span += lifts[g, d] * lifts[g, d]
+                        moment += mean_offset[d] * lifts[g, d]
+                    if span > 0.0:
+                        slope = span / max(span - 2.0 * moment, 0.5 * span)
 
-            row = fluid_count + g
-            for d in range(DIM):
-                rows[row, DIM + d] = wall_velocities[g, d]
-            for e in range(DIM if n > 0 else 0):
-                relative = mean_velocity[e] - wall_velocities[g, e]
-                rows[row, DIM + e] += 0.5 * (1.0 - slope) * relative
+                row = fluid_count + g
                 for d in range(DIM):
-                    rows[row, DIM + d] += 0.5 * (1.0 + slope) * reflections[g, d, e] * relative
-            rows[row, 2 * DIM] = DENSITY(pressure, reference_density, sound_speed)
-            rows[row, 2 * DIM + 1] = pressure
+                    rows[row, DIM + d] = wall_velocities[g, d]
+                for e in range(DIM if n > 0 else 0):
+                    relative = mean_velocity[e] - wall_velocities[g, e]
+                    rows[row, DIM + e] += 0.5 * (1.0 - slope) * relative
+                    for d in range(DIM):
+                        rows[row, DIM + d] += 0.5 * (1.0 + slope) * reflections[g, d, e] * relative
+                rows[row, 2 * DIM] = DENSITY(pressure, reference_density, sound_speed)
+                rows[row, 2 * DIM + 1] = pressure
