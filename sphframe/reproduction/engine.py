@@ -7,6 +7,7 @@ folder. Results are files, not what travels over the network: whatever is killed
 # mypy: disable-error-code="no-untyped-call"
 
 import contextlib
+import itertools
 import logging
 import os
 import queue
@@ -122,21 +123,29 @@ class _Foreman:
 
     def _do(self, names: list[str]) -> None:
         folder = str(self._folder.resolve())
-        futures = [
-            self._client.submit(
-                _work, self._left[name], folder, name, self._threads, key=name, pure=False, priority=-place
-            )
-            for place, name in enumerate(names)
-        ]
         finished = queue.SimpleQueue[Any]()
-        for future in futures:
-            future.add_done_callback(finished.put)
+        waiting, under_way = iter(names), set[Any]()
         try:
-            for _ in futures:
-                self._finish(finished.get())
+            while True:
+                # no more than can be worked on: what dask has given to one worker it leaves there, another may idle
+                for name in itertools.islice(waiting, max(0, self._hands() - len(under_way))):
+                    future = self._client.submit(
+                        _work, self._left[name], folder, name, self._threads, key=name, pure=False
+                    )
+                    future.add_done_callback(finished.put)
+                    under_way.add(future)
+                if not under_way:
+                    return
+                future = finished.get()
+                under_way.remove(future)
+                self._finish(future)
         except BaseException:
-            self._client.cancel(futures, force=True)
+            self._client.cancel(list(under_way), force=True)
             raise
+
+    def _hands(self) -> int:
+        """Number of workers there are; the first task waits for the first worker."""
+        return max(1, len(self._client.scheduler_info(n_workers=-1)["workers"]))
 
     def _finish(self, future: Any) -> None:
         from distributed import KilledWorker

@@ -1,5 +1,6 @@
 """Tasks on a cluster: each once, whatever fails, and one command at a time."""
 
+import contextlib
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -10,6 +11,7 @@ import pytest
 
 from sphframe.errors import InputError, OutputError
 from sphframe.output.lock import lock_file
+from sphframe.reproduction import engine
 from sphframe.reproduction.engine import Progress, carry_out
 from sphframe.reproduction.tasks import RunTask, Task, Tell
 
@@ -87,3 +89,51 @@ def test_no_scheduler_and_no_workers_are_told(make: Callable[..., RunTask], tmp_
         carry_out([make("one")], tmp_path, workers=0)
     with pytest.raises(InputError, match="give one of them"):
         carry_out([make("one")], tmp_path, workers=1, scheduler="tcp://127.0.0.1:1")
+
+
+class _TwoWorkers:
+    """A client whose first task takes as long as all others together."""
+
+    def __init__(self, count: int) -> None:
+        self.count, self.submitted, self.under_way, self.most = count, 0, 0, 0
+        self.end_the_first: Callable[[], None] | None = None
+
+    def subscribe_topic(self, topic: str, handler: object) -> None: ...
+
+    def scheduler_info(self, n_workers: int) -> dict[str, object]:
+        return {"workers": {"one": {}, "two": {}}}
+
+    def submit(self, work: object, task: Task, folder: str, name: str, *_: object, key: str, pure: bool) -> "_Future":
+        (Path(folder) / name).touch()
+        self.submitted += 1
+        self.under_way += 1
+        self.most = max(self.most, self.under_way)
+        return _Future(self, key, self.submitted)
+
+
+@dataclass(frozen=True)
+class _Future:
+    client: _TwoWorkers
+    key: str
+    number: int
+
+    def result(self) -> None:
+        self.client.under_way -= 1
+
+    def add_done_callback(self, tell: Callable[["_Future"], None]) -> None:
+        if self.number == 1:
+            self.client.end_the_first = lambda: tell(self)
+        else:
+            tell(self)
+        if self.number == self.client.count and self.client.end_the_first:
+            self.client.end_the_first()
+
+
+def test_no_worker_is_idle_beside_a_long_task(
+    make: Callable[..., RunTask], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tasks = [make(str(k), until=0.05 + 0.01 * k) for k in range(6)]
+    client = _TwoWorkers(len(tasks))
+    monkeypatch.setattr(engine, "_cluster", lambda *_: contextlib.nullcontext((client, 1)))
+    carry_out(tasks, tmp_path)
+    assert (client.submitted, client.under_way, client.most) == (6, 0, 2)
