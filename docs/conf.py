@@ -17,7 +17,7 @@ myst_heading_anchors = 3
 include_patterns = [
     "index.md", "commands.md", "methods.md", "theory/*.md", "gallery.md", "notebooks/*.ipynb",
     "tutorial_plugin.md", "api.md", "comparison.md", "performance.md",
-    "development.md",
+    "reproduction/*.md", "development.md",
 ]  # fmt: skip
 nb_execution_mode = os.environ.get("SPHFRAME_DOCS_NOTEBOOKS", "force")  # "off" builds the pages without running them
 nb_execution_raise_on_error = True

@@ -1,4 +1,5 @@
-"""Reproduction: writes chapters as one self-contained page, with every figure and table as a file of its own.
+"""Reproduction: writes chapters as one self-contained page, with every figure and table as a file of its own, and as
+Markdown beside these.
 
 All text passes through jinja2's escaping: names that come from cases, plugins or files are shown, never interpreted.
 """
@@ -23,7 +24,7 @@ _MIME = {"svg": "image/svg+xml", "png": "image/png"}
 def write_report(
     folder: Path, title: str, chapters: Sequence[Chapter], *, preface: Sequence[str] = (), facts: Mapping[str, str]
 ) -> Path:
-    """Write ``report.html``, ``figures/`` and ``tables/`` into ``folder``; return the page.
+    """Write ``report.html``, ``report.md``, ``figures/`` and ``tables/`` into ``folder``; return the page.
 
     Parameters
     ----------
@@ -47,14 +48,29 @@ def write_report(
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    environment.filters.update(shown=shown, data_uri=_data_uri)
+    environment.filters.update(shown=shown, data_uri=_data_uri, cell=_markdown_cell)
     claims = [claim for chapter in chapters for claim in chapter.claims]
-    page = environment.get_template("report.html.j2").render(
-        title=title,
-        preface=preface,
-        chapters=chapters,
-        facts=facts,
-        counts={verdict.value: sum(claim.verdict is verdict for claim in claims) for verdict in Verdict},
+    claim_rows: list[dict[str, Cell]] = [
+        {
+            "where": claim.where,
+            "claim": claim.statement,
+            "verdict": claim.verdict.value,
+            "paper": claim.published,
+            "measured": claim.measured,
+            "reason": claim.reason,
+        }
+        for claim in claims
+    ]
+    page, markdown = (
+        environment.get_template(f"{name}.j2").render(
+            title=title,
+            preface=preface,
+            chapters=chapters,
+            claims=claim_rows,
+            facts=facts,
+            counts={verdict.value: sum(claim.verdict is verdict for claim in claims) for verdict in Verdict},
+        )
+        for name in ("report.html", "report.md")
     )
     for chapter in chapters:
         for picture in chapter.pictures:
@@ -62,18 +78,8 @@ def write_report(
         for table in chapter.tables:
             _write(folder / "tables" / f"{table.name}.csv", _csv(table).encode())
     if claims:
-        rows = [
-            {
-                "where": claim.where,
-                "claim": claim.statement,
-                "verdict": claim.verdict.value,
-                "paper": claim.published,
-                "measured": claim.measured,
-                "reason": claim.reason,
-            }
-            for claim in claims
-        ]
-        _write(folder / "tables" / "claims.csv", _csv(Table("claims", "", rows)).encode())
+        _write(folder / "tables" / "claims.csv", _csv(Table("claims", "", claim_rows)).encode())
+    _write(folder / "report.md", markdown.encode())
     path = folder / "report.html"
     _write(path, page.encode())
     return path
@@ -88,6 +94,11 @@ def shown(cell: Cell) -> str:
     if cell is None or (isinstance(cell, float) and math.isnan(cell)):
         return "-"
     return f"{cell:.4g}" if isinstance(cell, float) else str(cell)
+
+
+def _markdown_cell(text: str) -> str:
+    """Text that stays in its cell of a table."""
+    return " ".join(text.replace("|", "\\|").split())
 
 
 def _data_uri(picture: Picture) -> str:

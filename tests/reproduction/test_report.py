@@ -2,6 +2,7 @@
 
 import csv
 import importlib.util
+import re
 from pathlib import Path
 from types import ModuleType
 
@@ -49,8 +50,18 @@ def test_tables_are_files(report: Path, tiny: ModuleType) -> None:
         assert [row["verdict"] for row in csv.DictReader(file)] == ["reproduced", "not checkable"]
 
 
+def test_the_markdown_names_every_figure_and_table(report: Path, tiny: ModuleType) -> None:
+    text = report.with_name("report.md").read_text()
+    linked = set(re.findall(r"\]\(([^)]+)\)", text))
+    assert linked == {f"figures/{n}" for n in ("pressures.svg", "pressures_raster.png")} | {"tables/pressures.csv"}
+    assert all((report.parent / path).exists() for path in linked)
+    assert "<script" not in text
+    rows = [line for line in text.splitlines() if line.startswith("| tank")]
+    assert [row.count("|") for row in rows] == [4] * 4
+
+
 def test_written_again_it_is_the_same(report: Path, tiny: ModuleType) -> None:
-    files = sorted(path for path in report.parent.rglob("*") if path.suffix in (".html", ".svg", ".png", ".csv"))
+    files = sorted(path for path in report.parent.rglob("*") if path.suffix in (".html", ".md", ".svg", ".png", ".csv"))
     before = [path.read_bytes() for path in files]
     reproduce(report.parent, quick=True, sections=tiny.TINY)
     assert [path.read_bytes() for path in files] == before
