@@ -19,6 +19,11 @@ class Table:
     caption: str
     rows: Sequence[Mapping[str, Cell]]
 
+    @property
+    def heads(self) -> list[str]:
+        """The columns: all that any row has."""
+        return list(dict.fromkeys(head for row in self.rows for head in row))
+
 
 @dataclass(frozen=True)
 class Picture:

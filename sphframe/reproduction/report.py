@@ -107,8 +107,7 @@ def _data_uri(picture: Picture) -> str:
 
 def _csv(table: Table) -> str:
     file = io.StringIO()
-    heads = list(dict.fromkeys(head for row in table.rows for head in row))
-    writer = csv.DictWriter(file, heads, lineterminator="\n")
+    writer = csv.DictWriter(file, table.heads, lineterminator="\n")
     writer.writeheader()
     writer.writerows(
         {head: f"{cell:.6g}" if isinstance(cell, float) else cell for head, cell in row.items()} for row in table.rows

@@ -9,6 +9,8 @@ from types import ModuleType
 import pytest
 
 from sphframe.reproduction import Section, reproduce
+from sphframe.reproduction.chapter import Chapter, Table
+from sphframe.reproduction.report import write_report
 from sphframe.reproduction.series import Reference
 from sphframe.reproduction.tasks import RunTask
 
@@ -48,6 +50,13 @@ def test_tables_are_files(report: Path, tiny: ModuleType) -> None:
     assert all(2500.0 < float(row["mean (Pa)"]) < 3500.0 for row in rows)
     with (report.parent / "tables" / "claims.csv").open(newline="") as file:
         assert [row["verdict"] for row in csv.DictReader(file)] == ["reproduced", "not checkable"]
+
+
+def test_a_column_that_the_first_row_lacks_is_shown(tmp_path: Path) -> None:
+    table = Table("two", "Two", [{"a": 1}, {"a": 2, "b": 0.25}])
+    path = write_report(tmp_path, "t", [Chapter("c", "c", [], [table], [], [])], facts={})
+    for text in (path.read_text(), (tmp_path / "report.md").read_text(), (tmp_path / "tables" / "two.csv").read_text()):
+        assert "0.25" in text
 
 
 def test_the_markdown_names_every_figure_and_table(report: Path, tiny: ModuleType) -> None:
