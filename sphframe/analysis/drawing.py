@@ -160,12 +160,14 @@ def walls_at(dataset: xr.Dataset, time: float) -> list[tuple[Array, int]]:
     return result
 
 
-def draw_probes(axes: "Axes", dataset: xr.Dataset) -> None:
-    """Mark where the pressure probes are, with their names."""
+def draw_probes(axes: "Axes", dataset: xr.Dataset) -> "list[Line2D]":
+    """Mark where the pressure probes are; return the marks."""
     if "probe_pressure" not in dataset:
-        return
+        return []
     across, up = dataset["probe_x"].values, dataset[f"probe_{'xyz'[_dimension(dataset) - 1]}"].values
-    axes.plot(across, up, "o", markersize=4, color="white", markeredgecolor="black", markeredgewidth=0.8, zorder=4)
+    return axes.plot(
+        across, up, "o", markersize=4, color="white", markeredgecolor="black", markeredgewidth=0.8, zorder=4
+    )
 
 
 def draw_free_surface(axes: "Axes", dataset: xr.Dataset, time: float) -> None:

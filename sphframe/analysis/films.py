@@ -146,7 +146,7 @@ def film_frames(
     bar.set_label(f"{style.label} ({style.unit})", fontsize=12)
     bar.ax.tick_params(labelsize=11)
     figure.suptitle(run_title(dataset), fontsize=13, wrap=True)
-    draw_probes(axes, dataset)
+    probes = draw_probes(axes, dataset)
     title = axes.set_title(_time_text(dataset, 0.0), fontsize=12, loc="left")
     walls = draw_walls(axes, dataset, 0.0)
     canvas.draw()  # lays the figure out
@@ -157,7 +157,7 @@ def film_frames(
         )[0]
         for colour in colormaps[style.colours](np.linspace(0.0, 1.0, _LEVELS))
     ]
-    for artist in (title, *walls):
+    for artist in (title, *walls, *probes):
         artist.set_animated(True)
     canvas.draw()
     background = canvas.copy_from_bbox(figure.bbox)
@@ -172,7 +172,7 @@ def film_frames(
         title.set_text(_time_text(dataset, float(frame["time"])))
         move_walls(walls, dataset, float(frame["time"]))
         canvas.restore_region(background)
-        for artist in (*dots, *walls, title):
+        for artist in (*dots, *walls, *probes, title):
             axes.draw_artist(artist)
         yield np.asarray(canvas.buffer_rgba()).copy()
 
