@@ -50,6 +50,19 @@ def medians(fill: dict[str, float], neighbours: float, power: dict[str, float]) 
     }
 
 
+def test_differences_over_the_time_do_not_depend_on_where_points_crowd() -> None:
+    t = np.linspace(0.0, 7.0, 701)
+    computed = xr.DataArray(np.where(t < 3.0, 0.4, 0.0), coords={"t": t})
+    sparse = xr.DataArray(np.zeros(8), coords={"t": np.arange(8.0)})
+    crowded = np.unique(np.concatenate([np.arange(8.0), np.linspace(2.5, 2.9, 50)]))
+    dense = xr.DataArray(np.zeros(len(crowded)), coords={"t": crowded})
+    expected = 0.4 * math.sqrt(0.6 / 3.6)
+    for experiment in (sparse, dense):
+        assert dam_break._rms(computed, experiment) == pytest.approx(expected, rel=0.02)
+    assert dam_break._rms(computed, sparse, at_points=True) == 0.0
+    assert dam_break._rms(computed, dense, at_points=True) > 0.35
+
+
 def test_growth_and_verdicts_of_costs() -> None:
     power = {"mls-quadratic": 2.0}
     by_ratio = {r: medians({}, 30.0 * r**2, power) for r in (1.0, 2.0, 3.0)}
