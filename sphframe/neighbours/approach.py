@@ -10,10 +10,7 @@ import numpy as np
 
 from sphframe.interfaces.scratch import local_array
 
-__all__ = ["PARTS", "relative_displacement"]
-
-PARTS = 2
-"""of the particles that are looked at at the same time"""
+__all__ = ["relative_displacement"]
 
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")

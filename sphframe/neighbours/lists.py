@@ -2,8 +2,8 @@
 
 A list serves a cluster of consecutive particles, which touch each other since particles are kept in spatial order: it
 holds whatever is within the search radius of the box around them, first fluid particles and then ghosts. A pair loop
-copies a cluster's neighbourhood once and then reads it from consecutive memory for each member: that costs less than
-the pairs too many, which lie beyond the kernel support and get no weight. The search radius is the kernel support plus
+reads each neighbour once for all members of the cluster: that costs less than the pairs too many, which lie beyond the
+kernel support and get no weight. The search radius is the kernel support plus
 the skin, so the lists stay complete while no two particles have approached each other by more than the skin: while
 nothing has moved further than that against the walls, and no two particles near each other against one another.
 """
@@ -14,12 +14,15 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from sphframe.neighbours.approach import PARTS, relative_displacement
+from sphframe.neighbours.approach import relative_displacement
 from sphframe.neighbours.cells import Grid, bounding_box, cell_number, grid_around, row_number, sort_by_cell
 
 __all__ = ["NeighbourLists"]
 
 Array = NDArray[np.float64]
+
+_PARTS = 2
+"""of the rows that are sorted, or looked at, at the same time"""
 
 
 class NeighbourLists:
@@ -66,9 +69,9 @@ class NeighbourLists:
         self._ghost_cells = np.zeros(ghost_count, np.int64)
         self._ghost_order = np.zeros(ghost_count, np.int64)
         self._ghost_starts = np.zeros(2, np.int64)
-        self._tallies = np.zeros((PARTS, 1), np.int64)
+        self._tallies = np.zeros((_PARTS, 1), np.int64)
         self._lower, self._upper = np.zeros(dim), np.zeros(dim)
-        self._boxes = np.zeros((PARTS, 1, 6))
+        self._boxes = np.zeros((_PARTS, 1, 6))
 
     @property
     def radius(self) -> float:
@@ -80,7 +83,7 @@ class NeighbourLists:
         bounding_box(rows, self.fluid_count, self.dim, self._lower, self._upper)
         self.grid = grid_around(self._lower, self._upper, self.width, 1.1 * self.radius)  # with all ghosts that matter
         if self._tallies.shape[1] != self.grid.count:
-            self._tallies = np.zeros((PARTS, self.grid.count), np.int64)
+            self._tallies = np.zeros((_PARTS, self.grid.count), np.int64)
             self.starts = np.zeros(self.grid.count + 1, np.int64)
             self._ghost_starts = np.zeros(self.grid.count + 1, np.int64)
         self._sort(rows, self._cells, self.starts, self._order)
@@ -118,7 +121,7 @@ class NeighbourLists:
         shape[: self.dim] = np.floor((self._upper - self._lower) / edge) + 3
         cubes = int(shape.prod())
         if self._boxes.shape[1] < cubes:
-            self._boxes = np.empty((PARTS, cubes, 6))
+            self._boxes = np.empty((_PARTS, cubes, 6))
         apart = relative_displacement(rows, reference, self.dim, self._lower, edge, shape, self._boxes[:, :cubes])
         return bool(apart + 2.0 * ahead <= self.skin)
 

@@ -13,7 +13,7 @@ Cell = str | float | int | None
 
 @dataclass(frozen=True)
 class Table:
-    """Rows by column; ``name`` is that of its CSV file."""
+    """Rows by column; ``name`` is that of its CSV file. A table without rows is left out."""
 
     name: str
     caption: str

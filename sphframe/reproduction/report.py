@@ -76,7 +76,8 @@ def write_report(
         for picture in chapter.pictures:
             _write(folder / "figures" / f"{picture.name}.{picture.suffix}", picture.content)
         for table in chapter.tables:
-            _write(folder / "tables" / f"{table.name}.csv", _csv(table).encode())
+            if table.rows:
+                _write(folder / "tables" / f"{table.name}.csv", _csv(table).encode())
     if claims:
         _write(folder / "tables" / "claims.csv", _csv(Table("claims", "", claim_rows)).encode())
     _write(folder / "report.md", markdown.encode())

@@ -91,8 +91,7 @@ def reproduce(
         finally:
             for dataset in opened.values():
                 dataset.close()
-        tables = [*chapter.tables, *([stopped] if stopped.rows else [])]
-        chapters.append(dataclasses.replace(chapter, tables=tables, absent=tuple(series.absent)))
+        chapters.append(dataclasses.replace(chapter, tables=[*chapter.tables, stopped], absent=tuple(series.absent)))
         for task in tasks[name]:
             versions |= distributions(task.case())
     return write_report(

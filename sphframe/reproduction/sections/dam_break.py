@@ -164,7 +164,7 @@ def _chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) 
             " one.",
             _goal(runs, experiments),
         ],
-        [table for table in tables if table.rows],
+        tables,
         pictures,
         _claims(runs, experiments, {v.method: row for v, row in zip(VARIANTS, health, strict=True) if v.published}),
     )
