@@ -1,27 +1,28 @@
-"""Hooks: what happens during a run, told to any number of listeners.
+"""Hooks: the events of a run, which any number of listeners receive.
 
 A listener is any object, class or module with functions marked by :data:`hookimpl`; the progress bar and the NetCDF
-writer are listeners. One that is declared in the entry-point group ``sphframe.hooks`` listens to every run::
+writer are listeners. A listener that is declared in the entry-point group ``sphframe.hooks`` receives the events of
+every run::
 
     from sphframe import hookimpl
 
     @hookimpl
     def sphframe_step_completed(simulation):
         print(simulation.step, simulation.time)
+
+Every listener, built-in or installed, receives the running simulation as a
+:class:`~sphframe.interfaces.RunView`: its time, step, fields, probes, forces and counts, all read-only.
 """
 
 import inspect
 import warnings
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 import pluggy
 
 from sphframe.errors import PluginError, PluginWarning
+from sphframe.interfaces import RunView
 from sphframe.registry import Entry, available, load
-
-if TYPE_CHECKING:
-    from sphframe.simulation import Simulation
 
 __all__ = ["hook_manager", "hookimpl", "hookspec"]
 
@@ -34,27 +35,27 @@ class Events:
     """The events of a run, in the order in which they happen."""
 
     @hookspec
-    def sphframe_run_started(self, simulation: "Simulation") -> None:
+    def sphframe_run_started(self, simulation: RunView) -> None:
         """Listen to the start of a run: the initial state is complete, no step has been made."""
 
     @hookspec
-    def sphframe_step_completed(self, simulation: "Simulation") -> None:
+    def sphframe_step_completed(self, simulation: RunView) -> None:
         """Listen to the end of each time step. Called often: return quickly."""
 
     @hookspec
-    def sphframe_probes_due(self, simulation: "Simulation") -> None:
+    def sphframe_probes_due(self, simulation: RunView) -> None:
         """Listen to the times at which probes, energies and diagnostics are sampled, the start included."""
 
     @hookspec
-    def sphframe_frame_due(self, simulation: "Simulation") -> None:
+    def sphframe_frame_due(self, simulation: RunView) -> None:
         """Listen to the times at which all particles are stored, the start included."""
 
     @hookspec
-    def sphframe_run_finished(self, simulation: "Simulation") -> None:
+    def sphframe_run_finished(self, simulation: RunView) -> None:
         """Listen to the regular end of a run."""
 
     @hookspec
-    def sphframe_run_failed(self, simulation: "Simulation", error: BaseException) -> None:
+    def sphframe_run_failed(self, simulation: RunView, error: BaseException) -> None:
         """Listen to the end of a run by ``error``, an interruption by the user included. Close what is open."""
 
 

@@ -5,8 +5,11 @@ from typing import Any
 
 import pytest
 
+from sphframe.cases import load_case
 from sphframe.errors import PluginError, PluginWarning
 from sphframe.hooks import Events, hook_manager, hookimpl
+from sphframe.interfaces import ResumableRun, RunView
+from sphframe.simulation import Simulation
 
 EVENTS = ["run_started", "step_completed", "probes_due", "frame_due", "run_finished", "run_failed"]
 LISTENER = """
@@ -54,6 +57,12 @@ def test_every_event_is_told_to_every_listener_in_the_order_given():
     error = ValueError()
     manager.hook.sphframe_run_failed(simulation="run", error=error)
     assert heard == ["run", "second", error, error]
+
+
+def test_a_simulation_has_every_member_that_listeners_may_use():
+    simulation = Simulation(load_case("hydrostatic-tank", overrides={"particle_spacing": 0.03}), threads=1)
+    assert isinstance(simulation, RunView)
+    assert isinstance(simulation, ResumableRun)
 
 
 def test_every_event_is_documented():

@@ -13,7 +13,7 @@ from pydantic_core import PydanticUndefined
 from sphframe.cases.explain import explain
 from sphframe.errors import InputError
 from sphframe.geometry import Region, Wall
-from sphframe.interfaces import RigidBody
+from sphframe.interfaces import Fields, RigidBody
 from sphframe.representation import html_table
 
 __all__ = [
@@ -91,15 +91,6 @@ class Guards(BaseModel):
 def quantity(default: Any, unit: str, description: str, **bounds: Any) -> Any:
     """A parameter of a case with its unit; ``default`` may be ``...`` for a required one, or :class:`Derived`."""
     return Field(default, description=description, json_schema_extra={"unit": unit}, **bounds)
-
-
-class Fields(NamedTuple):
-    """The fluid at one instant: position and velocity (n, dim), density and pressure (n,), in SI units."""
-
-    position: Array
-    velocity: Array
-    density: Array
-    pressure: Array
 
 
 class Probe(BaseModel):

@@ -3,13 +3,13 @@
 import time
 from collections import deque
 from datetime import timedelta
-from typing import Any
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn
 
 from sphframe.analysis import concerns
 from sphframe.hooks import hookimpl
+from sphframe.interfaces import RunView
 
 __all__ = ["ProgressDisplay"]
 
@@ -38,7 +38,7 @@ class ProgressDisplay:
         self._seen: deque[tuple[float, int, float]] = deque(maxlen=_STRETCH)  # wall clock, step, simulated time
 
     @hookimpl
-    def sphframe_run_started(self, simulation: Any) -> None:
+    def sphframe_run_started(self, simulation: RunView) -> None:
         """Show the bar."""
         self._tenths = int(10.0 * simulation.time / simulation.case.until)
         if self._console.is_terminal:
@@ -54,12 +54,12 @@ class ProgressDisplay:
             self._progress.start()
 
     @hookimpl
-    def sphframe_frame_due(self, simulation: Any) -> None:
+    def sphframe_frame_due(self, simulation: RunView) -> None:
         """Count the particles behind walls, which is too dear for every step."""
         self._outside = simulation.particles_outside()
 
     @hookimpl
-    def sphframe_step_completed(self, simulation: Any) -> None:
+    def sphframe_step_completed(self, simulation: RunView) -> None:
         """Move the bar, or print a line."""
         now = time.monotonic()
         due = not self._seen or now - self._seen[-1][0] > _REFRESH
@@ -77,12 +77,12 @@ class ProgressDisplay:
             self._console.print("; ".join(parts), markup=False)
 
     @hookimpl
-    def sphframe_run_finished(self, simulation: Any) -> None:
+    def sphframe_run_finished(self, simulation: RunView) -> None:
         """Remove the bar."""
         self._stop()
 
     @hookimpl
-    def sphframe_run_failed(self, simulation: Any, error: BaseException) -> None:
+    def sphframe_run_failed(self, simulation: RunView, error: BaseException) -> None:
         """Remove the bar."""
         self._stop()
 
@@ -90,7 +90,7 @@ class ProgressDisplay:
         if self._progress is not None:
             self._progress.stop()
 
-    def _state(self, simulation: Any, now: float) -> str:
+    def _state(self, simulation: RunView, now: float) -> str:
         until, step_length = simulation.case.until, f"dt = {simulation.time_step:.2e} s"
         text = f"step {simulation.step:,}, t = {simulation.time:.4g} of {until:.4g} s, {step_length}"
         began, step, then = self._seen[0]
@@ -99,7 +99,7 @@ class ProgressDisplay:
         left = (until - simulation.time) * (now - began) / (simulation.time - then)
         return f"{text}, {(simulation.step - step) / (now - began):.0f} steps/s, {timedelta(seconds=round(left))} left"
 
-    def _wrong(self, simulation: Any) -> list[str]:
+    def _wrong(self, simulation: RunView) -> list[str]:
         return concerns(
             outside=self._outside,
             removed=simulation.removed_count,

@@ -1,10 +1,13 @@
-"""Interfaces: what authors subclass. Nothing here imports another room (``representation`` is none)."""
+"""Interfaces: contracts between the rooms, and the classes that authors of components subclass.
+
+Nothing here imports another room (``representation`` is none)."""
 
 from sphframe.interfaces.boundary_interpolator import BoundaryInterpolator, WeightsFunction
 from sphframe.interfaces.equation_of_state import EquationOfState
 from sphframe.interfaces.integrator import Integrator, System
 from sphframe.interfaces.kernel import CompiledKernel, Kernel
 from sphframe.interfaces.rigid_body import Motion, RigidBody
+from sphframe.interfaces.run_view import CaseView, Fields, ResumableRun, RunView, SceneView
 from sphframe.interfaces.traits import DRY, OK, SINGULAR, TOO_FEW, EvaluationPoint, Status, Traits
 
 __all__ = [
@@ -13,13 +16,18 @@ __all__ = [
     "SINGULAR",
     "TOO_FEW",
     "BoundaryInterpolator",
+    "CaseView",
     "CompiledKernel",
     "EquationOfState",
     "EvaluationPoint",
+    "Fields",
     "Integrator",
     "Kernel",
     "Motion",
+    "ResumableRun",
     "RigidBody",
+    "RunView",
+    "SceneView",
     "Status",
     "System",
     "Traits",

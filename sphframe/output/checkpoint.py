@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from sphframe.errors import InputError, OutputError
 from sphframe.hooks import hookimpl
+from sphframe.interfaces import CaseView, ResumableRun
 from sphframe.output.provenance import distributions, software
 from sphframe.output.writer import NetCDFWriter, checkpoint_path
 
@@ -77,30 +78,30 @@ class CheckpointWriter:
         self._due = 0.0
 
     @hookimpl
-    def sphframe_run_started(self, simulation: Any) -> None:
+    def sphframe_run_started(self, simulation: ResumableRun) -> None:
         """Start counting."""
         self._written_at = time.monotonic()
         self._set_due(simulation.time)
 
     @hookimpl
-    def sphframe_step_completed(self, simulation: Any) -> None:
+    def sphframe_step_completed(self, simulation: ResumableRun) -> None:
         """Write a checkpoint when one is due."""
         by_clock = self._every is not None and time.monotonic() - self._written_at >= self._every
         if by_clock or (self._interval is not None and simulation.time >= self._due):
             self.write(simulation)
 
     @hookimpl
-    def sphframe_run_finished(self, simulation: Any) -> None:
+    def sphframe_run_finished(self, simulation: ResumableRun) -> None:
         """Remove the checkpoint: nothing is left to continue."""
         self.path.unlink(missing_ok=True)
 
     @hookimpl
-    def sphframe_run_failed(self, simulation: Any, error: BaseException) -> None:
+    def sphframe_run_failed(self, simulation: ResumableRun, error: BaseException) -> None:
         """Write a checkpoint when the run was interrupted."""
         if isinstance(error, KeyboardInterrupt) and simulation.between_steps and self._writer.run_id:
             self.write(simulation)
 
-    def write(self, simulation: Any) -> None:
+    def write(self, simulation: ResumableRun) -> None:
         """Write a checkpoint of the present state.
 
         Raises
@@ -191,7 +192,7 @@ def _array(content: bytes, kind: str, shape: list[int]) -> NDArray[Any]:
     return np.frombuffer(content, dtype=kind).reshape(shape).copy()
 
 
-def changed_versions(checkpoint: Checkpoint, case: Any) -> list[str]:
+def changed_versions(checkpoint: Checkpoint, case: CaseView) -> list[str]:
     """Return what is not the version that wrote ``checkpoint``, as texts ``numpy 2.1.0, now 2.2.0``."""
     before, now = checkpoint.versions, _versions(case)
     return [
@@ -201,7 +202,7 @@ def changed_versions(checkpoint: Checkpoint, case: Any) -> list[str]:
     ]
 
 
-def _versions(case: Any) -> dict[str, str]:
+def _versions(case: CaseView) -> dict[str, str]:
     """Versions of all that the bits of a result depend on."""
     return {
         **distributions(case),

@@ -3,9 +3,9 @@
 import importlib.metadata
 import platform
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 from sphframe import registry
+from sphframe.interfaces import CaseView
 
 __all__ = ["COMPONENTS", "distributions", "registered_name", "software"]
 
@@ -18,7 +18,7 @@ COMPONENTS = {
 """the fields of a case that choose a component, and its kind"""
 
 
-def distributions(case: Any) -> dict[str, str]:
+def distributions(case: CaseView) -> dict[str, str]:
     """Return the versions of sphframe and of all distributions that the case and its components come from."""
     versions = {"sphframe": importlib.metadata.version("sphframe")}
     for kind, name in _chosen(case):
@@ -40,7 +40,7 @@ def registered_name(case: type) -> str:
     return next((entry.name for entry in registry.available("cases") if entry.value == target), target)
 
 
-def _chosen(case: Any) -> Iterator[tuple[str, str]]:
+def _chosen(case: CaseView) -> Iterator[tuple[str, str]]:
     yield "cases", registered_name(type(case))
     for field, kind in COMPONENTS.items():
         yield kind, getattr(case, field).name

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from sphframe.errors import OutputError
 from sphframe.hooks import hookimpl
-from sphframe.interfaces import Status
+from sphframe.interfaces import CaseView, RunView, Status
 from sphframe.output.lock import lock_file
 from sphframe.output.provenance import COMPONENTS, distributions, registered_name, software
 from sphframe.output.schema import CONVENTIONS, FORMAT, VARIABLES, RunStatus, Variable, unit_of
@@ -78,7 +78,7 @@ class NetCDFWriter:
             _check_target(self.path, overwrite)
 
     @hookimpl
-    def sphframe_run_started(self, simulation: Any) -> None:
+    def sphframe_run_started(self, simulation: RunView) -> None:
         """Create the file, with all that is known at the start; or open it again, to continue it."""
         if self._resumed is not None:
             self._reopen(self._resumed)
@@ -110,14 +110,14 @@ class NetCDFWriter:
         self._flushed_at = time.monotonic()
 
     @hookimpl
-    def sphframe_probes_due(self, simulation: Any) -> None:
+    def sphframe_probes_due(self, simulation: RunView) -> None:
         """Take a sample of probes, sums and diagnostics."""
         self._samples.append(_sample(simulation))
         if time.monotonic() - self._flushed_at > self.flush_interval:
             self._flush()
 
     @hookimpl
-    def sphframe_frame_due(self, simulation: Any) -> None:
+    def sphframe_frame_due(self, simulation: RunView) -> None:
         """Write all particles."""
         file = self._open_file()
         fields = simulation.fields()
@@ -134,12 +134,12 @@ class NetCDFWriter:
         self._flush()
 
     @hookimpl
-    def sphframe_run_finished(self, simulation: Any) -> None:
+    def sphframe_run_finished(self, simulation: RunView) -> None:
         """Write what is left, mark the run as completed and close the file."""
         self._end(RunStatus.COMPLETED, "")
 
     @hookimpl
-    def sphframe_run_failed(self, simulation: Any, error: BaseException) -> None:
+    def sphframe_run_failed(self, simulation: RunView, error: BaseException) -> None:
         """Write what is left, with the reason of the failure, and close the file."""
         if self._file is None:
             return
@@ -340,11 +340,11 @@ def _check_space(path: Path, lengths: Mapping[str, int | None], frames: int) -> 
         )
 
 
-def _planned_frames(case: Any) -> int:
+def _planned_frames(case: CaseView) -> int:
     return int(case.until / case.frame_interval) + 2
 
 
-def _dimensions(simulation: Any) -> dict[str, int | None]:
+def _dimensions(simulation: RunView) -> dict[str, int | None]:
     """Lengths of the dimensions; what the case does not have is left out (a classic file has no length 0)."""
     scene, case = simulation.scene, simulation.case
     outlines = [line for wall in scene.walls for line in wall.outline()]
@@ -365,7 +365,7 @@ def _dimensions(simulation: Any) -> dict[str, int | None]:
     return {**{name: length for name, length in lengths.items() if length > 0}, "time": None}
 
 
-def _define(file: netCDF4.Dataset, simulation: Any, lengths: Mapping[str, int | None]) -> None:
+def _define(file: netCDF4.Dataset, simulation: RunView, lengths: Mapping[str, int | None]) -> None:
     dimension = simulation.case.dimension
     for name, length in lengths.items():
         file.createDimension(name, length)
@@ -392,7 +392,7 @@ def _define(file: netCDF4.Dataset, simulation: Any, lengths: Mapping[str, int | 
     file.setncatts(_attributes(simulation))
 
 
-def _variables(simulation: Any) -> dict[str, Variable]:
+def _variables(simulation: RunView) -> dict[str, Variable]:
     """The schema with the case's diagnostics added, ``particle_mass`` staying the last of the fixed part."""
     dimension = simulation.case.dimension
     absent = {"probe_z", "gauge_y"} if dimension == 2 else set()
@@ -407,7 +407,7 @@ def _variables(simulation: Any) -> dict[str, Variable]:
     return {**fixed, **diagnostics, "particle_mass": mass, **known}
 
 
-def _names(simulation: Any) -> dict[str, Sequence[str]]:
+def _names(simulation: RunView) -> dict[str, Sequence[str]]:
     scene, dimension = simulation.scene, simulation.case.dimension
     return {
         "space": tuple("xyz"[:dimension]),
@@ -420,7 +420,7 @@ def _names(simulation: Any) -> dict[str, Sequence[str]]:
     }
 
 
-def _fill_start(file: netCDF4.Dataset, simulation: Any) -> None:
+def _fill_start(file: netCDF4.Dataset, simulation: RunView) -> None:
     scene, dimension = simulation.scene, simulation.case.dimension
     for name, names in _names(simulation).items():
         if names:
@@ -448,7 +448,7 @@ def _fill_start(file: netCDF4.Dataset, simulation: Any) -> None:
     file["particle_mass"][:] = simulation.masses()
 
 
-def _sample(simulation: Any) -> dict[str, Any]:
+def _sample(simulation: RunView) -> dict[str, Any]:
     scene = simulation.scene
     energies = simulation.energies()
     sample: dict[str, Any] = {
@@ -479,7 +479,7 @@ def _sample(simulation: Any) -> dict[str, Any]:
     return sample
 
 
-def _attributes(simulation: Any) -> dict[str, Any]:
+def _attributes(simulation: RunView) -> dict[str, Any]:
     """Global attributes: all that repeats the run, and the scales that make its numbers dimensionless."""
     case, scene = simulation.case, simulation.scene
     components = {}
@@ -509,7 +509,7 @@ def _attributes(simulation: Any) -> dict[str, Any]:
     }
 
 
-def _text_length(name: str, simulation: Any) -> int:
+def _text_length(name: str, simulation: RunView) -> int:
     if name == "run_message":
         return _MESSAGE_LENGTH
     return max(1, *(len(text.encode()) for text in _names(simulation)[name]))

@@ -21,6 +21,7 @@ from sphframe.cases import Case, CaseWarning
 from sphframe.errors import InputError, OutputError, SimulationError
 from sphframe.geometry import lattice
 from sphframe.hooks import hookimpl
+from sphframe.interfaces import RunView
 from sphframe.output import open_dataset
 from sphframe.output.lock import lock_file
 from sphframe.output.provenance import distributions, registered_name
@@ -136,7 +137,7 @@ class _Teller:
         self._tell, self._told = tell, time.monotonic()
 
     @hookimpl
-    def sphframe_step_completed(self, simulation: Any) -> None:
+    def sphframe_step_completed(self, simulation: RunView) -> None:
         """Tell, if it is time."""
         if time.monotonic() - self._told > 1.0:
             self._told = time.monotonic()

@@ -1,0 +1,325 @@
+"""Interfaces: what hooks, the output and the progress display may see of a running simulation.
+
+Every listener to the events of a run (:mod:`sphframe.hooks`) receives the simulation as a :class:`RunView`. All members
+are read-only: a listener observes and never changes the run. Only the checkpoint writer needs :class:`ResumableRun`.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sphframe.interfaces.rigid_body import Motion, RigidBody
+
+__all__ = [
+    "CaseView",
+    "ComponentView",
+    "DiagnosticView",
+    "Fields",
+    "GaugeView",
+    "GhostView",
+    "ProbeView",
+    "ResumableRun",
+    "RunView",
+    "SceneView",
+    "WallView",
+]
+
+Array = NDArray[np.float64]
+
+
+class Fields(NamedTuple):
+    """The fluid at one instant: position and velocity (n, dim), density and pressure (n,), in SI units."""
+
+    position: Array
+    velocity: Array
+    density: Array
+    pressure: Array
+
+
+class ComponentView(Protocol):
+    """A component that a case has chosen."""
+
+    @property
+    def name(self) -> str:
+        """Name in the registry."""
+
+    @property
+    def options(self) -> Mapping[str, Any]:
+        """Options by name."""
+
+
+class CaseView(Protocol):
+    """The parameters of the case that runs, in SI units; see :class:`sphframe.Case`."""
+
+    @property
+    def title(self) -> str:
+        """One line that says what the case is."""
+
+    @property
+    def dimension(self) -> int:
+        """Dimension of space, 2 or 3."""
+
+    @property
+    def particle_spacing(self) -> float:
+        """Spacing of the particles at the start, m."""
+
+    @property
+    def reference_density(self) -> float:
+        """Density at zero pressure, kg/m^3."""
+
+    @property
+    def gravity(self) -> float:
+        """Acceleration of gravity, m/s^2."""
+
+    @property
+    def interpolator(self) -> ComponentView:
+        """Boundary interpolation method."""
+
+    @property
+    def kernel(self) -> ComponentView:
+        """Smoothing kernel."""
+
+    @property
+    def equation_of_state(self) -> ComponentView:
+        """Equation of state."""
+
+    @property
+    def integrator(self) -> ComponentView:
+        """Time integration scheme."""
+
+    @property
+    def until(self) -> float:
+        """Time at which the run ends, s."""
+
+    @property
+    def frame_interval(self) -> float:
+        """Time between frames, s."""
+
+    @property
+    def probe_interval(self) -> float:
+        """Time between samples, s."""
+
+    def model_dump(self, *, mode: str = "python") -> dict[str, Any]:
+        """Return all parameters by name; with ``mode="json"`` as JSON types."""
+
+
+class WallView(Protocol):
+    """A wall."""
+
+    @property
+    def name(self) -> str:
+        """Name of the wall."""
+
+    @property
+    def body(self) -> str | None:
+        """Name of the body that carries the wall; None for a fixed wall."""
+
+    def outline(self) -> list[Array]:
+        """Return the polylines (m, dim) that draw the wall, m."""
+
+
+class ProbeView(Protocol):
+    """A pressure probe."""
+
+    @property
+    def name(self) -> str:
+        """Name of the probe."""
+
+    @property
+    def position(self) -> Sequence[float]:
+        """Position (dim,), m."""
+
+    @property
+    def radius(self) -> float:
+        """Radius over which the probe averages, m."""
+
+
+class GaugeView(Protocol):
+    """A gauge of the free-surface elevation."""
+
+    @property
+    def name(self) -> str:
+        """Name of the gauge."""
+
+    @property
+    def position(self) -> Sequence[float]:
+        """Horizontal position (dim - 1,), m."""
+
+
+class DiagnosticView(Protocol):
+    """A number that the case computes from the fluid."""
+
+    @property
+    def name(self) -> str:
+        """Name of the variable."""
+
+    @property
+    def unit(self) -> str:
+        """SI unit."""
+
+    @property
+    def long_name(self) -> str:
+        """What it is, as the label of an axis."""
+
+
+class SceneView(Protocol):
+    """The geometry and the measuring points of the case."""
+
+    @property
+    def walls(self) -> Sequence[WallView]:
+        """Walls."""
+
+    @property
+    def probes(self) -> Sequence[ProbeView]:
+        """Pressure probes."""
+
+    @property
+    def gauges(self) -> Sequence[GaugeView]:
+        """Free-surface gauges."""
+
+    @property
+    def bodies(self) -> Mapping[str, RigidBody]:
+        """Bodies that carry walls, by name."""
+
+    @property
+    def diagnostics(self) -> Sequence[DiagnosticView]:
+        """Numbers that the case computes from the fluid."""
+
+    @property
+    def depth(self) -> float:
+        """Still water depth, m."""
+
+    @property
+    def domain(self) -> tuple[Sequence[float], Sequence[float]]:
+        """Lower and upper corner of the domain, (dim,) each, m."""
+
+
+class GhostView(Protocol):
+    """The ghost particles of all walls."""
+
+    @property
+    def position(self) -> Array:
+        """Present positions (g, dim), m."""
+
+    @property
+    def mirror(self) -> Array:
+        """Present mirror points (g, dim), m."""
+
+
+@runtime_checkable
+class RunView(Protocol):
+    """A running simulation of a case, as a listener to its events sees it."""
+
+    @property
+    def case(self) -> CaseView:
+        """The case that runs."""
+
+    @property
+    def scene(self) -> SceneView:
+        """Its geometry and measuring points."""
+
+    @property
+    def time(self) -> float:
+        """Simulated time, s."""
+
+    @property
+    def step(self) -> int:
+        """Number of time steps made."""
+
+    @property
+    def time_step(self) -> float:
+        """Length of the last time step, s; 0 before the first."""
+
+    @property
+    def wall_clock(self) -> float:
+        """Wall-clock time spent in time steps, s."""
+
+    @property
+    def particle_count(self) -> int:
+        """Number of fluid particles at the start of the run."""
+
+    @property
+    def fluid_count(self) -> int:
+        """Number of fluid particles now."""
+
+    @property
+    def ghost_count(self) -> int:
+        """Number of ghost particles."""
+
+    @property
+    def removed_count(self) -> int:
+        """Number of particles that have left the domain and were removed."""
+
+    @property
+    def densities_outside(self) -> int:
+        """Number of particles whose density is outside the band of the case's guards."""
+
+    @property
+    def sound_speed(self) -> float:
+        """Reference sound speed, m/s."""
+
+    @property
+    def smoothing_length(self) -> float:
+        """Smoothing length, m."""
+
+    @property
+    def ghosts(self) -> GhostView:
+        """The ghost particles."""
+
+    def fields(self) -> Fields:
+        """Return copies of the fluid's fields in the particles' original order; NaN for removed particles."""
+
+    def masses(self) -> Array:
+        """Return the mass of each particle (n,) in the original order, kg (2-D: per metre of width); NaN if removed."""
+
+    def ghost_fields(self) -> Fields:
+        """Return copies of the ghost particles' fields as last filled."""
+
+    def sample(self, points: Array) -> tuple[Array, Array]:
+        """Return the pressure (Pa, 0 where dry) and the filling (1 inside the fluid) at ``points`` (k, dim)."""
+
+    def probe_pressures(self) -> Array:
+        """Return the pressure at each probe (p,), Pa."""
+
+    def gauge_elevations(self) -> Array:
+        """Return the free-surface elevation at each gauge, m; NaN where dry."""
+
+    def energies(self) -> dict[str, float]:
+        """Return the ``kinetic``, ``potential`` and ``internal`` energy, J (2-D: per metre of width)."""
+
+    def diagnostics(self) -> dict[str, float]:
+        """Return the case's own diagnostics by name."""
+
+    def particles_outside(self) -> int:
+        """Return the number of fluid particles behind a wall."""
+
+    def status_counts(self) -> NDArray[np.int64]:
+        """Return the number of ghosts by :class:`~sphframe.interfaces.Status` at the last evaluation."""
+
+    def body_motions(self) -> dict[str, Motion]:
+        """Return the present motion of each body."""
+
+    def wall_forces(self) -> dict[str, tuple[Array, Array]]:
+        """Return the force on each wall, N (2-D: per metre of width): reaction of the ghosts, integrated pressure."""
+
+
+@runtime_checkable
+class ResumableRun(RunView, Protocol):
+    """A running simulation whose state can be saved, so that the run can be resumed from it."""
+
+    @property
+    def samples(self) -> int:
+        """Number of samples taken."""
+
+    @property
+    def frames(self) -> int:
+        """Number of frames stored."""
+
+    @property
+    def between_steps(self) -> bool:
+        """Whether no time step is under way: only then may the state be saved."""
+
+    def state(self) -> dict[str, NDArray[Any]]:
+        """Return copies of all that the rest of the run depends on, by name."""
