@@ -1,5 +1,6 @@
 """Cases: what every case has, numerical and physical parameters, checked once when the case is made."""
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -14,6 +15,7 @@ from sphframe.cases.explain import explain
 from sphframe.errors import InputError
 from sphframe.geometry import Region, Wall
 from sphframe.interfaces import Fields, RigidBody
+from sphframe.registry import create
 from sphframe.representation import html_table
 
 __all__ = [
@@ -51,6 +53,15 @@ class Component(BaseModel):
         if isinstance(given, Mapping) and "name" in given and not isinstance(given.get("options"), Mapping):
             return {"name": given["name"], "options": {k: v for k, v in given.items() if k != "name"}}
         return given
+
+    def create(self, kind: str) -> Any:
+        """Make the component of ``kind``, one of :data:`sphframe.registry.KINDS`, with its options.
+
+        Raises
+        ------
+        InputError, PluginError: as :func:`sphframe.registry.create` does.
+        """
+        return create(kind, self.name, **self.options)
 
     @model_serializer
     def _as_table(self) -> dict[str, Any]:
@@ -228,6 +239,10 @@ class Case(BaseModel, ABC):
     @abstractmethod
     def scene(self) -> Scene:
         """Draw the case: walls, fluid, bodies, probes."""
+
+    def reference_sound_speed(self, depth: float) -> float:
+        """Return c0 in m/s: ``sound_speed``, or 20 sqrt(g H) for a still water ``depth`` H in m where it is None."""
+        return self.sound_speed or 20.0 * math.sqrt(max(self.gravity, 1e-12) * depth)
 
     def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
         """Only what was given: the rest are defaults."""

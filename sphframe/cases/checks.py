@@ -11,7 +11,7 @@ from sphframe.cases.case import Case, Component, Scene
 from sphframe.errors import InputError, SphframeError
 from sphframe.geometry import Region, lattice
 from sphframe.interfaces import Integrator
-from sphframe.registry import create
+from sphframe.registry import COMPONENT_KINDS
 
 __all__ = ["CaseWarning", "check_case"]
 
@@ -21,12 +21,6 @@ _MOST_SAMPLES = 20_000_000
 _MOST_STEPS = 1e10
 _MOST_CELLS = 1e8
 _MOST_WALL_POINTS = 1e8
-_COMPONENTS = {
-    "interpolator": "interpolators",
-    "kernel": "kernels",
-    "equation_of_state": "equations_of_state",
-    "integrator": "integrators",
-}
 
 
 class CaseWarning(UserWarning):
@@ -65,10 +59,10 @@ def check_case(case: Case) -> None:
 
 def _component_errors(case: Case) -> list[SphframeError]:
     errors = []
-    for field, kind in _COMPONENTS.items():
+    for field, kind in COMPONENT_KINDS.items():
         component: Component = getattr(case, field)
         try:
-            create(kind, component.name, **component.options)
+            component.create(kind)
         except SphframeError as error:
             errors.append(error)
     return errors
@@ -155,7 +149,7 @@ def _output_problems(case: Case) -> Iterator[str]:
 
 
 def _step_problems(case: Case, scene: Scene) -> Iterator[str]:
-    sound_speed = case.sound_speed or 20.0 * math.sqrt(case.gravity * scene.depth)
+    sound_speed = case.reference_sound_speed(scene.depth)
     if case.time_step is not None:
         step, parameter = case.time_step, f"time_step = {case.time_step:g} s"
     elif sound_speed > 0.0:
@@ -231,13 +225,13 @@ def _doubts(case: Case, scene: Scene) -> Iterator[str]:
             f" {scene.depth:g} m; 10 or more are needed for a result worth having"
         )
     wave_speed = math.sqrt(case.gravity * scene.depth)
-    sound_speed = case.sound_speed or 20.0 * wave_speed
+    sound_speed = case.reference_sound_speed(scene.depth)
     if sound_speed < 9.999 * wave_speed:
         yield (
             f"sound_speed = {sound_speed:g} m/s is below 10 sqrt(g H) = {10 * wave_speed:.3g} m/s: densities will vary"
             f" by more than a per cent"
         )
-    integrator: Integrator = create("integrators", case.integrator.name, **case.integrator.options)
+    integrator: Integrator = case.integrator.create("integrators")
     courant = _largest_courant_number(case, sound_speed)
     if courant is not None and courant[0] > integrator.stability_limit:
         number, parameter = courant

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from sphframe.cases.case import Case, Component, Derived, Gauge, Probe, Scene, quantity
 from sphframe.geometry import Region, Wall
-from sphframe.registry import create
 
 __all__ = ["Custom"]
 
@@ -73,7 +72,7 @@ class Custom(Case):
             domain=self.domain or self._around_everything(lower, upper),
             probes=self.probes,
             gauges=self.gauges,
-            bodies={name: create("rigid_bodies", body.name, **body.options) for name, body in self.bodies.items()},
+            bodies={name: body.create("rigid_bodies") for name, body in self.bodies.items()},
         )
 
     def _around_everything(self, lower: Array, upper: Array) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -86,7 +86,7 @@ class DamBreak(Case):
         """Draw the tank, the column at its left end, the sensor at its right end, and the diagnostics."""
         dim, height, length = self.dimension, self.water_height, self.water_length
         tank = box_tank(dim, self.tank_length, self.tank_width, self.tank_height)
-        sound_speed = self.sound_speed or 20.0 * math.sqrt(self.gravity * height)
+        sound_speed = self.reference_sound_speed(height)
 
         def initial_pressure(position: Array) -> Array:
             return dam_break_pressure(

@@ -1,5 +1,6 @@
 """Geometry: walls -> fluid lattice, ghost particles, mirror points."""
 
+from sphframe.geometry.frames import directions_to_world, to_body_frame, to_world
 from sphframe.geometry.panels import Panels, wall_panels
 from sphframe.geometry.shapes import BoxRegion, PolygonRegion, Region, lattice, lattice_cell
 from sphframe.geometry.walls import BoxWall, GhostPoints, PolygonWall, Wall, wall_ghosts
@@ -13,8 +14,11 @@ __all__ = [
     "PolygonWall",
     "Region",
     "Wall",
+    "directions_to_world",
     "lattice",
     "lattice_cell",
+    "to_body_frame",
+    "to_world",
     "wall_ghosts",
     "wall_panels",
 ]

@@ -7,15 +7,7 @@ from collections.abc import Iterator, Mapping
 from sphframe import registry
 from sphframe.interfaces import CaseView
 
-__all__ = ["COMPONENTS", "distributions", "registered_name", "software"]
-
-COMPONENTS = {
-    "interpolator": "interpolators",
-    "kernel": "kernels",
-    "equation_of_state": "equations_of_state",
-    "integrator": "integrators",
-}
-"""the fields of a case that choose a component, and its kind"""
+__all__ = ["distributions", "registered_name", "software"]
 
 
 def distributions(case: CaseView) -> dict[str, str]:
@@ -42,7 +34,7 @@ def registered_name(case: type) -> str:
 
 def _chosen(case: CaseView) -> Iterator[tuple[str, str]]:
     yield "cases", registered_name(type(case))
-    for field, kind in COMPONENTS.items():
+    for field, kind in registry.COMPONENT_KINDS.items():
         yield kind, getattr(case, field).name
     bodies = getattr(case, "bodies", None)
     for body in bodies.values() if isinstance(bodies, Mapping) else ():

@@ -26,8 +26,9 @@ from sphframe.errors import OutputError
 from sphframe.hooks import hookimpl
 from sphframe.interfaces import CaseView, RunView, Status
 from sphframe.output.lock import lock_file
-from sphframe.output.provenance import COMPONENTS, distributions, registered_name, software
+from sphframe.output.provenance import distributions, registered_name, software
 from sphframe.output.schema import CONVENTIONS, FORMAT, VARIABLES, RunStatus, Variable, unit_of
+from sphframe.registry import COMPONENT_KINDS
 
 if TYPE_CHECKING:
     from sphframe.output.checkpoint import Checkpoint
@@ -483,7 +484,7 @@ def _attributes(simulation: RunView) -> dict[str, Any]:
     """Global attributes: all that repeats the run, and the scales that make its numbers dimensionless."""
     case, scene = simulation.case, simulation.scene
     components = {}
-    for field in COMPONENTS:
+    for field in COMPONENT_KINDS:
         chosen = getattr(case, field)
         components[field] = {"name": chosen.name, **chosen.options}
     versions = distributions(case)

@@ -12,7 +12,18 @@ from sphframe.errors import ClashingPluginError, InputError, PluginWarning, Unkn
 from sphframe.registry.nearest import did_you_mean, nearest
 from sphframe.representation import html_table
 
-__all__ = ["API_VERSION", "KINDS", "OLDEST_API_VERSION", "Entry", "Listing", "available", "clear", "find", "is_address"]
+__all__ = [
+    "API_VERSION",
+    "COMPONENT_KINDS",
+    "KINDS",
+    "OLDEST_API_VERSION",
+    "Entry",
+    "Listing",
+    "available",
+    "clear",
+    "find",
+    "is_address",
+]
 
 API_VERSION = (1, 0)
 """version of the plugin interface that this sphframe offers"""
@@ -30,6 +41,13 @@ _LABELS = {
 }
 KINDS = tuple(_LABELS)
 """the kinds of components; kind K is entry-point group ``sphframe.K``"""
+COMPONENT_KINDS = {
+    "interpolator": "interpolators",
+    "kernel": "kernels",
+    "equation_of_state": "equations_of_state",
+    "integrator": "integrators",
+}
+"""the parameters of a case that choose a component by name, with the kind of that component"""
 
 _DISTRIBUTIONS = {
     ("interpolators", "improved-shepard"): "sphframe-shepard",

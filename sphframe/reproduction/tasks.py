@@ -5,7 +5,6 @@ The file's name holds a hash of all that the result depends on, so that work tha
 
 import hashlib
 import json
-import math
 import os
 import threading
 import time
@@ -26,7 +25,7 @@ from sphframe.output import open_dataset
 from sphframe.output.lock import lock_file
 from sphframe.output.provenance import distributions, registered_name
 from sphframe.output.writer import checkpoint_path
-from sphframe.registry import create, load
+from sphframe.registry import load
 from sphframe.simulation.run import resume, run
 from sphframe.specialise import fingerprint
 
@@ -90,7 +89,7 @@ class Task(ABC):
         case = self.case()
         scene = case.scene()
         particles = sum(len(lattice(region, case.particle_spacing)) for region in scene.fluid)
-        sound_speed = case.sound_speed or 20.0 * math.sqrt(max(case.gravity, 1e-12) * scene.depth)
+        sound_speed = case.reference_sound_speed(scene.depth)
         step = case.time_step or 0.5 * case.smoothing_length_ratio * case.particle_spacing / sound_speed
         return particles * case.until / step
 
@@ -172,8 +171,8 @@ def work(task: Task, folder: str, name: str, threads: int, tell: Tell) -> str:
 
 def made_with(case: Case) -> dict[str, str]:
     """Return the versions of what ``case`` is run with, and the fingerprint of its method, whose author is at work."""
-    method = create("interpolators", case.interpolator.name, **case.interpolator.options)
-    kernel = compiled_kernel(create("kernels", case.kernel.name, **case.kernel.options), case.dimension)
+    method = case.interpolator.create("interpolators")
+    kernel = compiled_kernel(case.kernel.create("kernels"), case.dimension)
     return {**distributions(case), "method": fingerprint(method.point_weights(kernel, case.dimension))}
 
 

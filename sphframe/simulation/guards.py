@@ -19,7 +19,7 @@ from sphframe.boundary.operator import operator
 from sphframe.cases.case import Case
 from sphframe.errors import BrokenPluginError, SimulationError, SphframeError
 from sphframe.interfaces import EvaluationPoint, Status
-from sphframe.registry import Entry, available, find
+from sphframe.registry import COMPONENT_KINDS, Entry, available, find
 from sphframe.simulation.system import FluidSystem
 
 __all__ = ["Watch", "check_promises", "check_time_step", "naming_component", "naming_hook", "watch"]
@@ -187,14 +187,6 @@ def check_promises(system: FluidSystem, interpolator: Any, kernel: Any, case: Ca
             )
 
 
-_KINDS = {
-    "interpolators": "interpolator",
-    "kernels": "kernel",
-    "equations_of_state": "equation_of_state",
-    "integrators": "integrator",
-}
-
-
 @contextmanager
 def naming_component(case: Case, *, running: bool) -> Iterator[None]:
     """Turn what a component of the case raises, or fails to compile with, into an error that names it.
@@ -208,7 +200,7 @@ def naming_component(case: Case, *, running: bool) -> Iterator[None]:
     except (SphframeError, MemoryError):
         raise
     except Exception as error:
-        strangers = [find(kind, getattr(case, field).name) for kind, field in _KINDS.items()]
+        strangers = [find(kind, getattr(case, field).name) for field, kind in COMPONENT_KINDS.items()]
         strangers = [entry for entry in strangers if entry.distribution != "sphframe"]
         compiled = isinstance(error, numba.core.errors.NumbaError | SystemError)
         if not compiled:

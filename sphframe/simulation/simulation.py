@@ -20,7 +20,7 @@ from sphframe.interfaces import EquationOfState, Kernel, Motion, Status
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
 from sphframe.physics import LANES, invert_pressure, sample_points
-from sphframe.registry import create
+from sphframe.registry import COMPONENT_KINDS
 from sphframe.simulation.guards import check_promises, check_time_step, naming_component, naming_hook, watch
 from sphframe.simulation.interruption import Interruption, deferred_interruption
 from sphframe.simulation.probes import Gauges, PressureProbes
@@ -65,12 +65,7 @@ class Simulation:
         self.scene: Scene = case.scene()
         self.threads = _use_threads(threads)
         self.components: dict[str, Any] = {
-            "interpolator": create("interpolators", case.interpolator.name, **case.interpolator.options),
-            "kernel": create("kernels", case.kernel.name, **case.kernel.options),
-            "equation_of_state": create(
-                "equations_of_state", case.equation_of_state.name, **case.equation_of_state.options
-            ),
-            "integrator": create("integrators", case.integrator.name, **case.integrator.options),
+            field: getattr(case, field).create(kind) for field, kind in COMPONENT_KINDS.items()
         }
         shape, state = self.components["kernel"], self.components["equation_of_state"]
         self.time = self.time_step = self.wall_clock = 0.0
@@ -81,7 +76,7 @@ class Simulation:
     def _set_up(self, shape: Kernel, state: EquationOfState) -> None:
         case, dim, spacing = self.case, self.case.dimension, self.case.particle_spacing
         kernel = compiled_kernel(shape, dim)
-        self.sound_speed = case.sound_speed or 20.0 * math.sqrt(max(case.gravity, 1e-12) * self.scene.depth)
+        self.sound_speed = case.reference_sound_speed(self.scene.depth)
         self.parameters = Parameters(
             dim=dim,
             kernel=kernel,
