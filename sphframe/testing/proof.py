@@ -16,13 +16,19 @@ from sphframe.testing.evaluation import extrapolates, title
 from sphframe.testing.neighbourhoods import ALL, Cloud, catalogue
 from sphframe.testing.strategies import clouds
 
-__all__ = ["BrokenPromiseError", "Property", "prove", "smallest"]
+__all__ = ["BrokenPromiseError", "Property", "prove", "require", "smallest"]
 
 Property = Callable[[Cloud], str | None]
 
 
 class BrokenPromiseError(AssertionError):
     """When a component breaks a promise; the message says which, how, and on what."""
+
+
+def require(condition: bool, message: str) -> None:
+    """Raise a BrokenPromiseError with the ``message`` unless the ``condition`` holds."""
+    if not condition:
+        raise BrokenPromiseError(message)
 
 
 class _FoundError(Exception):

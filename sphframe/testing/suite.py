@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sphframe.interfaces import BoundaryInterpolator, Traits
-from sphframe.testing import interpolators as of_methods
+from sphframe.interfaces import BoundaryInterpolator, EquationOfState, Integrator, Kernel, RigidBody, Traits
+from sphframe.testing import equations_of_state, integrators, interpolators, kernels, rigid_bodies
 from sphframe.testing.evaluation import title
 
 __all__ = ["Check", "checks_of", "parametrize_with_checks"]
@@ -40,33 +40,11 @@ class Check:
         return self.name if self.dim is None else f"{self.name}-{self.dim}d"
 
 
-_TRAITS: dict[str, tuple[Callable[..., None], Callable[[Traits], bool]]] = {
-    "partition_of_unity": (of_methods.check_partition_of_unity, lambda t: t.partition_of_unity),
-    "non_negative": (of_methods.check_non_negative, lambda t: t.non_negative),
-    "range_restricted": (of_methods.check_range_restricted, lambda t: t.range_restricted),
-    "linear_reproduction": (of_methods.check_linear_reproduction, lambda t: t.reproduces_degree >= 1),
-    "quadratic_reproduction": (of_methods.check_quadratic_reproduction, lambda t: t.reproduces_degree >= 2),
-    "interpolates_particles": (of_methods.check_interpolates_particles, lambda t: t.interpolates_particles),
-    "rotation_invariance": (of_methods.check_rotation_invariance, lambda t: t.rotation_invariant),
-    "volume_independence": (of_methods.check_volume_independence, lambda t: t.volume_independent),
-    "continuity": (of_methods.check_continuity, lambda t: t.continuous),
-}
-_ALWAYS: dict[str, Callable[..., None]] = {
-    "traits": of_methods.check_traits,
-    "compiles": of_methods.check_compiles,
-    "honest_status": of_methods.check_honest_status,
-    "fewest_points": of_methods.check_fewest_points,
-    "bounded_weights": of_methods.check_bounded_weights,
-    "reflection_invariance": of_methods.check_reflection_invariance,
-    "permutation_invariance": of_methods.check_permutation_invariance,
-    "translation_invariance": of_methods.check_translation_invariance,
-    "scale_invariance": of_methods.check_scale_invariance,
-    "unit_independence": of_methods.check_unit_independence,
-    "repeatable": of_methods.check_repeatable,
-    "plain_python_agrees": of_methods.check_plain_python_agrees,
-    "solver_agrees": of_methods.check_solver_agrees,
-    "writes_only_out": of_methods.check_writes_only_out,
-    "no_allocation": of_methods.check_no_allocation,
+_OTHER_INTERFACES: dict[type, dict[str, Callable[[Any], None]]] = {
+    Kernel: kernels.CHECKS,
+    EquationOfState: equations_of_state.CHECKS,
+    Integrator: integrators.CHECKS,
+    RigidBody: rigid_bodies.CHECKS,
 }
 
 
@@ -84,21 +62,25 @@ def checks_of(component: Any, *, promised_only: bool = True) -> list[Check]:
     """
     if isinstance(component, BoundaryInterpolator):
         return _checks_of_method(component, promised_only)
-    from sphframe.testing import others
-
-    return [Check(name, function) for name, function in others.checks_of(component).items()]
+    for interface, checks in _OTHER_INTERFACES.items():
+        if isinstance(component, interface):
+            return [Check(name, function) for name, function in checks.items()]
+    raise TypeError(
+        f"there are no checks for {component!r}: give an instance of BoundaryInterpolator, Kernel, EquationOfState,"
+        f" Integrator or RigidBody"
+    )
 
 
 def _checks_of_method(method: BoundaryInterpolator, promised_only: bool) -> list[Check]:
     traits = method.traits
     if not isinstance(traits, Traits):
-        return [Check("traits", of_methods.check_traits, 2)]
+        return [Check("traits", interpolators.CHECKS["traits"], 2)]
     found = []
     for dim in (2, 3):
-        found += [Check(name, function, dim) for name, function in _ALWAYS.items()]
+        found += [Check(name, function, dim) for name, function in interpolators.CHECKS.items()]
         found += [
             Check(name, function, dim, promised=is_promised(traits), optional=True)
-            for name, (function, is_promised) in _TRAITS.items()
+            for name, (function, is_promised) in interpolators.CHECKS_OF_TRAITS.items()
             if is_promised(traits) or not promised_only
         ]
     return found

@@ -13,7 +13,7 @@ from sphframe.registry import available, create, find, load
 from sphframe.testing.proof import BrokenPromiseError
 from sphframe.testing.suite import Check, checks_of
 
-__all__ = ["Report", "Result", "components_called", "verify"]
+__all__ = ["Report", "Result", "verify"]
 
 KINDS = ("interpolators", "kernels", "equations_of_state", "integrators", "rigid_bodies")
 Verdict = Literal["kept", "held", "broken", "absent"]
@@ -98,12 +98,6 @@ def verify(names: Sequence[str] = (), *, progress: Callable[[str], None] | None 
     chosen = [_find(name) for name in names] or list(_installed_methods())
     for kind, label, name, options in chosen:
         yield _report(kind, label, name, options, progress or (lambda text: None))
-
-
-def components_called(name: str) -> Any:
-    """Return the component that ``name`` stands for in :func:`verify`."""
-    kind, _, bare, options = _find(name)
-    return create(kind, bare, **options)
 
 
 _Choice = tuple[str, str, str, dict[str, Any]]

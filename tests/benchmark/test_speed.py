@@ -1,4 +1,7 @@
-"""Speed regressions: `pytest tests/benchmarks -n0 --benchmark-enable`; otherwise each runs once, untimed."""
+"""Speed of the parts of a step: `pytest tests/benchmark/test_speed.py -n0 --benchmark-enable`.
+
+Without that option each part runs once, untimed.
+"""
 
 import pytest
 

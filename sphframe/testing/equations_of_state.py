@@ -1,0 +1,80 @@
+"""Testing: equations of state, one check function per property."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from sphframe.interfaces import EquationOfState
+from sphframe.specialise import compile_part
+from sphframe.testing.evaluation import title
+from sphframe.testing.proof import require
+
+__all__ = ["CHECKS"]
+
+
+_DENSITIES = 1000.0 * np.array([0.99, 0.999, 1.0, 1.0001, 1.001, 1.01, 1.03])
+
+
+def check_inverse(state: EquationOfState) -> None:
+    """rho(p(rho)) = rho, and p is zero at the reference density."""
+    pressure, density = state.pressure_function(), state.density_function()
+    for c0 in (10.0, 1500.0):
+        rest = pressure(1000.0, 1000.0, c0)
+        require(abs(rest) < 1e-9 * 1000.0 * c0**2, f"{title(state)}: p(rho0) is {rest:.6g} Pa, not 0")
+        for rho in _DENSITIES:
+            back = density(pressure(rho, 1000.0, c0), 1000.0, c0)
+            require(
+                abs(back - rho) < 1e-9 * rho,
+                f"{title(state)}: rho(p({rho:g})) is {back:.12g} kg/m^3 with c0 = {c0:g} m/s; density_function must"
+                f" invert pressure_function",
+            )
+
+
+def check_pressure_rises(state: EquationOfState) -> None:
+    """P rises with rho."""
+    pressure = state.pressure_function()
+    values = [pressure(rho, 1000.0, 40.0) for rho in _DENSITIES]
+    require(bool(np.all(np.diff(values) > 0.0)), f"{title(state)}: p does not rise with rho: {values} Pa")
+
+
+def check_sound_speed(state: EquationOfState) -> None:
+    """c^2 = dp/drho, and c = c0 at the reference density."""
+    pressure, speed = state.pressure_function(), state.sound_speed_function()
+    for c0 in (10.0, 1500.0):
+        require(
+            math.isclose(speed(1000.0, 1000.0, c0), c0, rel_tol=1e-9),
+            f"{title(state)}: c(rho0) is {speed(1000.0, 1000.0, c0):.9g} m/s with c0 = {c0:g} m/s",
+        )
+        for rho in _DENSITIES:
+            slope = (pressure(rho + 1e-3, 1000.0, c0) - pressure(rho - 1e-3, 1000.0, c0)) / 2e-3
+            given = speed(rho, 1000.0, c0) ** 2
+            require(
+                math.isclose(slope, given, rel_tol=1e-5),
+                f"{title(state)}: c^2 = {given:.9g} at rho = {rho:g}, but dp/drho = {slope:.9g} m^2/s^2",
+            )
+
+
+def check_compiles(state: EquationOfState) -> None:
+    """Compiled and plain Python agree."""
+    pressure = state.pressure_function()
+    for function, argument in (
+        (pressure, 1003.0),
+        (state.sound_speed_function(), 1003.0),
+        (state.density_function(), pressure(1003.0, 1000.0, 40.0)),
+    ):
+        compiled = compile_part(function)(argument, 1000.0, 40.0)
+        plain = function(argument, 1000.0, 40.0)
+        require(
+            math.isclose(compiled, plain, rel_tol=1e-9),
+            f"{title(state)}: compiled {compiled} and plain Python {plain} differ at {argument:g}",
+        )
+
+
+CHECKS: dict[str, Callable[[EquationOfState], None]] = {
+    "inverse": check_inverse,
+    "pressure_rises": check_pressure_rises,
+    "sound_speed": check_sound_speed,
+    "compiles": check_compiles,
+}
+"""the checks of an equation of state, by the name of the property"""

@@ -1,0 +1,149 @@
+"""Testing: integrators, one check function per property."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from sphframe.interfaces import Integrator
+from sphframe.testing.evaluation import title
+from sphframe.testing.proof import require
+
+__all__ = ["CHECKS", "Oscillator"]
+
+
+class Oscillator:
+    """An acoustic mode as a System: dx/dt = u, du/dt = -rho, drho/dt = u + forcing cos(2t), from x = rho = 1, u = 0."""
+
+    def __init__(self, forcing: float = 0.0) -> None:
+        self.x, self.u, self.rho = 1.0, 0.0, 1.0
+        self.forcing = forcing
+        self.evaluations = 0.0
+        self._rates = np.array([0.0, -1.0, forcing])
+        self._total = np.zeros(3)
+        self._start = np.zeros(3)
+
+    def exact(self, time: float) -> tuple[float, float, float]:
+        """Return x, u and rho at ``time``."""
+        c, s, c2, s2 = math.cos(time), math.sin(time), math.cos(2.0 * time), math.sin(2.0 * time)
+        f = self.forcing / 3.0
+        return c - f * s + 0.5 * f * s2, -s - f * c + f * c2, c - f * s + 2.0 * f * s2
+
+    def evaluate(self, time: float) -> None:
+        """Compute all rates."""
+        self.evaluate_density(time)
+        self._rates[0] = self.u
+        self.evaluate_acceleration(time)
+
+    def evaluate_density(self, time: float) -> None:
+        """Compute the density rate."""
+        self.evaluations += 0.5
+        self._rates[2] = self.u + self.forcing * math.cos(2.0 * time)
+
+    def evaluate_acceleration(self, time: float) -> None:
+        """Compute the acceleration."""
+        self.evaluations += 0.5
+        self._rates[1] = -self.rho
+
+    def hold(self) -> None:
+        """Remember the present state."""
+        self._start = np.array([self.x, self.u, self.rho])
+        self._total = np.zeros(3)
+
+    def advance(self, interval: float) -> None:
+        """y = y0 + interval f."""
+        self.x, self.u, self.rho = (self._start + interval * self._rates).tolist()
+
+    def accumulate(self, weight: float) -> None:
+        """Total = total + weight f."""
+        self._total += weight * self._rates
+
+    def advance_total(self, interval: float) -> None:
+        """y = y0 + interval total."""
+        self.x, self.u, self.rho = (self._start + interval * self._total).tolist()
+
+    def drift(self, interval: float) -> None:
+        """x = x + interval u."""
+        self.x += interval * self.u
+
+    def kick(self, interval: float) -> None:
+        """u = u + interval a."""
+        self.u += interval * float(self._rates[1])
+
+    def update_density(self, interval: float) -> None:
+        """Rho = rho + interval drho/dt."""
+        self.rho += interval * float(self._rates[2])
+
+
+def _integrate(integrator: Integrator, steps: int, time: float, forcing: float = 0.0) -> Oscillator:
+    system = Oscillator(forcing)
+    interval = time / steps
+    for k in range(steps):
+        integrator.step(system, k * interval, interval)
+    return system
+
+
+def check_order(integrator: Integrator) -> None:
+    """The error on a forced acoustic mode, in position, velocity and density, falls with the declared order."""
+    for name, k in (("position", 0), ("velocity", 1), ("density", 2)):
+        errors = []
+        for steps in (40, 80):
+            end = _integrate(integrator, steps, 3.0, forcing=0.5)
+            errors.append(abs((end.x, end.u, end.rho)[k] - end.exact(3.0)[k]))
+        measured = math.log2(errors[0] / errors[1]) if errors[1] > 0.0 else math.inf
+        require(
+            measured > integrator.order - 0.4,
+            f"{title(integrator)}: the {name} converges with order {measured:.2f}, and order says {integrator.order}",
+        )
+
+
+def check_evaluations(integrator: Integrator) -> None:
+    """The rates are evaluated as often per step as declared."""
+    counted = _integrate(integrator, 10, 1.0).evaluations / 10
+    require(
+        counted == integrator.evaluations,
+        f"{title(integrator)}: {counted:g} evaluations a step, and evaluations says {integrator.evaluations}",
+    )
+
+
+def check_energy(integrator: Integrator) -> None:
+    """The energy of an acoustic mode neither grows nor decays by more than 1 % in a hundred periods of 60 steps."""
+    end = _integrate(integrator, 6000, 200.0 * math.pi)
+    energy = end.rho**2 + end.u**2
+    require(
+        abs(energy - 1.0) < 0.01,
+        f"{title(integrator)}: after a hundred periods of 60 steps an acoustic mode has {energy:.4f} of its energy",
+    )
+
+
+def check_time_reversal(integrator: Integrator) -> None:
+    """Where ``time_reversible`` is set: run backwards in time, the acoustic mode returns to its start."""
+    if not getattr(integrator, "time_reversible", False):
+        return
+    system = _integrate(integrator, 50, 5.0)
+    for k in range(50):
+        integrator.step(system, 5.0 - 0.1 * k, -0.1)
+    back = (system.x, system.u, system.rho)
+    require(
+        bool(np.allclose(back, (1.0, 0.0, 1.0), atol=1e-10)),
+        f"{title(integrator)}: it says time_reversible, but returns to x, u, rho = {back}, not to 1, 0, 1",
+    )
+
+
+def check_stability(integrator: Integrator) -> None:
+    """The recommended Courant number lies below the stability limit."""
+    require(
+        0.0 < integrator.courant_number < integrator.stability_limit,
+        f"{title(integrator)}: courant_number {integrator.courant_number} must lie between 0 and stability_limit"
+        f" {integrator.stability_limit}",
+    )
+
+
+CHECKS: dict[str, Callable[[Integrator], None]] = {
+    "order": check_order,
+    "evaluations": check_evaluations,
+    "energy": check_energy,
+    "time_reversal": check_time_reversal,
+    "stability": check_stability,
+}
+"""the checks of an integrator, by the name of the property"""

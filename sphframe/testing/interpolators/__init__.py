@@ -1,0 +1,46 @@
+"""Testing: interpolation methods, one check function per property.
+
+Each check takes the method and the dimension, and raises :class:`sphframe.testing.BrokenPromiseError` with an
+explanation.
+"""
+
+from collections.abc import Callable
+
+from sphframe.interfaces import BoundaryInterpolator, Traits
+from sphframe.testing.interpolators import compiled, declaration, invariance, solver, weights
+
+__all__ = ["CHECKS", "CHECKS_OF_TRAITS"]
+
+CheckFunction = Callable[[BoundaryInterpolator, int], None]
+
+CHECKS: dict[str, CheckFunction] = {
+    "traits": declaration.check_traits,
+    "compiles": compiled.check_compiles,
+    "honest_status": weights.check_honest_status,
+    "fewest_points": declaration.check_fewest_points,
+    "bounded_weights": weights.check_bounded_weights,
+    "reflection_invariance": invariance.check_reflection_invariance,
+    "permutation_invariance": invariance.check_permutation_invariance,
+    "translation_invariance": invariance.check_translation_invariance,
+    "scale_invariance": invariance.check_scale_invariance,
+    "unit_independence": invariance.check_unit_independence,
+    "repeatable": compiled.check_repeatable,
+    "plain_python_agrees": compiled.check_plain_python_agrees,
+    "solver_agrees": solver.check_solver_agrees,
+    "writes_only_out": compiled.check_writes_only_out,
+    "no_allocation": compiled.check_no_allocation,
+}
+"""the checks of every method, by the name of the property"""
+
+CHECKS_OF_TRAITS: dict[str, tuple[CheckFunction, Callable[[Traits], bool]]] = {
+    "partition_of_unity": (weights.check_partition_of_unity, lambda t: t.partition_of_unity),
+    "non_negative": (weights.check_non_negative, lambda t: t.non_negative),
+    "range_restricted": (weights.check_range_restricted, lambda t: t.range_restricted),
+    "linear_reproduction": (weights.check_linear_reproduction, lambda t: t.reproduces_degree >= 1),
+    "quadratic_reproduction": (weights.check_quadratic_reproduction, lambda t: t.reproduces_degree >= 2),
+    "interpolates_particles": (weights.check_interpolates_particles, lambda t: t.interpolates_particles),
+    "rotation_invariance": (invariance.check_rotation_invariance, lambda t: t.rotation_invariant),
+    "volume_independence": (invariance.check_volume_independence, lambda t: t.volume_independent),
+    "continuity": (invariance.check_continuity, lambda t: t.continuous),
+}
+"""the checks of a trait, by the name of the property, each with whether given traits declare it"""

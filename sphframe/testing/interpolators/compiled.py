@@ -1,0 +1,151 @@
+"""Testing: the compiled weights function of an interpolation method, against plain Python and its own memory."""
+
+import numpy as np
+
+from sphframe.boundary.operator import compiled_kernel, weights_loop
+from sphframe.interfaces import BoundaryInterpolator
+from sphframe.interfaces.traits import OK
+from sphframe.registry import create
+from sphframe.specialise import compile_part
+from sphframe.testing.evaluation import extrapolates, plain_evaluator, title
+from sphframe.testing.interpolators.comparison import (
+    CLEAR,
+    broken,
+    degree_of,
+    difference_between,
+    evaluator_of,
+    invariance_tolerance,
+    shortened,
+)
+from sphframe.testing.neighbourhoods import SPARSE, Cloud, build
+from sphframe.testing.proof import BrokenPromiseError, prove
+
+__all__ = [
+    "check_compiles",
+    "check_no_allocation",
+    "check_plain_python_agrees",
+    "check_repeatable",
+    "check_writes_only_out",
+]
+
+
+def check_compiles(method: BoundaryInterpolator, dim: int) -> None:
+    """The weights function compiles, runs and returns a number."""
+    cloud = build("full support", dim, seed=0)
+    try:
+        evaluator_of(method, dim)(cloud)
+    except BrokenPromiseError:
+        raise
+    except Exception as error:
+        raise BrokenPromiseError(
+            f"{title(method)} in {dim}-D: the compiled weights function raises {type(error).__name__}: {error}.\n"
+            f"A weights function must not raise: answer SINGULAR or TOO_FEW"
+        ) from error
+
+
+def check_repeatable(method: BoundaryInterpolator, dim: int) -> None:
+    """The same cloud gets the same weights, whatever ``out`` held before and whatever was computed in between.
+
+    To round-off: compiled loops check at run time whether their arrays lie far enough apart in memory to be vectorised,
+    and fused multiply-adds round otherwise in the two forms of a loop.
+    """
+    run, again, degree = evaluator_of(method, dim), evaluator_of(method, dim, garbage=1e30), degree_of(method)
+    other = build("full support", dim, seed=99)
+
+    def wrong_with(cloud: Cloud) -> str | None:
+        first = run(cloud)
+        run(other)
+        second = again(cloud)
+        difference = np.max(np.abs(first.weights - second.weights))
+        if first.status != second.status or not difference <= invariance_tolerance(cloud, first, degree):
+            return (
+                f"out full of NaN gives {shortened(first.weights)}, out full of 1e30 gives"
+                f" {shortened(second.weights)}: set every entry of out before it is read, and keep no state"
+            )
+        return None
+
+    prove(method, dim, "the same neighbourhood must get the same weights", wrong_with)
+
+
+def check_plain_python_agrees(method: BoundaryInterpolator, dim: int) -> None:
+    """The compiled function and the plain Python one give the same weights and status."""
+    run, degree = evaluator_of(method, dim), degree_of(method)
+    plain = plain_evaluator(method, dim)
+
+    def wrong_with(cloud: Cloud) -> str | None:
+        cloud = cloud.clear_of_cut_off(CLEAR)
+        outcome = run(cloud)
+        try:
+            answer = plain(cloud)
+        except Exception as error:
+            return f"in plain Python it raises {type(error).__name__}: {error}"
+        if answer.status != OK and answer.status == outcome.status:
+            return None
+        difference = difference_between(method, cloud, outcome, answer, degree)
+        return None if difference is None else f"running it in plain Python {difference}"
+
+    for family in SPARSE:
+        for seed in range(4):
+            cloud = build(family, dim, seed, ratio=1.0, lifted=extrapolates(method))
+            complaint = wrong_with(cloud)
+            if complaint is not None:
+                raise broken(method, dim, f"compiled and plain Python must agree. {complaint}", cloud)
+
+
+def check_writes_only_out(method: BoundaryInterpolator, dim: int) -> None:
+    """The compiled function changes nothing but ``out``."""
+    kernel = create("kernels", "gaussian")
+    value = kernel.value_function()
+    loop = weights_loop(method, kernel, dim)
+    for seed, family in enumerate(("full support", "thin sheet", "spray", "at a particle", "collinear") * 2):
+        cloud = build(family, dim, seed, ratio=1.0, lifted=extrapolates(method))
+        n = len(cloud)
+        inside = slice(16, 16 + n)
+        members = np.zeros(n + 32, dtype=np.int64)
+        members[inside] = np.arange(n)
+        offsets = np.full((n + 32, dim), 7.25)
+        distances, values, volumes, out = (np.full(n + 32, 7.25) for _ in range(4))
+        lifts = cloud.lift[None, :].copy()
+        loop(
+            cloud.offsets, cloud.volumes, np.zeros((1, dim)), lifts, np.array([16, 16 + n]), members, cloud.support,
+            1.0, offsets, distances, values, volumes, out, np.empty(1, dtype=np.int64),
+        )  # fmt: skip
+        expected = [value(float(r) * kernel.support / cloud.support) for r in cloud.distances]
+        changed = [
+            name
+            for name, array, given in (
+                ("offsets", offsets, cloud.offsets),
+                ("distances", distances, cloud.distances),
+                ("kernel_values", values, np.array(expected)),
+                ("volumes", volumes, cloud.volumes),
+            )
+            if not np.allclose(array[inside], given, rtol=1e-9, atol=1e-12)
+        ]
+        if not np.array_equal(lifts[0], cloud.lift):
+            changed.append("lift")
+        if any(np.any(array[:16] != 7.25) or np.any(array[-16:] != 7.25) for array in (offsets, values, volumes, out)):
+            changed.append("memory before or behind its arrays")
+        if changed:
+            raise broken(
+                method,
+                dim,
+                f"a weights function must write to out[0] .. out[n - 1] alone, but it changed {', '.join(changed)}",
+                cloud,
+            )
+
+
+def check_no_allocation(method: BoundaryInterpolator, dim: int) -> None:
+    """The compiled function allocates nothing on the heap."""
+    kernel = create("kernels", "gaussian")
+    weights = compile_part(method.point_weights(compiled_kernel(kernel, dim), dim))
+    if not hasattr(weights, "inspect_llvm"):
+        return  # compilation is switched off
+    x, a = np.zeros((1, dim)), np.ones(1)
+    weights(x, a, a, a, 2.0, np.zeros(dim), np.zeros(1))
+    if any("NRT_MemInfo_alloc" in code for code in weights.inspect_llvm().values()):
+        raise broken(
+            method,
+            dim,
+            "the compiled weights function allocates memory, for every point of every step: use scalars, out, or"
+            " sphframe.local_array(size) instead of numpy arrays",
+        )

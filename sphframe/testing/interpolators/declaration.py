@@ -1,0 +1,109 @@
+"""Testing: what an interpolation method declares: its traits, and the fewest neighbours it needs."""
+
+import numpy as np
+
+from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint, Traits
+from sphframe.interfaces.traits import OK
+from sphframe.testing.evaluation import title
+from sphframe.testing.interpolators.comparison import broken, evaluator_of, status_name
+from sphframe.testing.neighbourhoods import REGULAR, Cloud, condition, magnification
+from sphframe.testing.proof import BrokenPromiseError, prove
+
+__all__ = ["check_fewest_points", "check_traits"]
+
+WELL_PLACED = 2.0
+"""sum of |weights| of a quadratic fit up to which a neighbourhood leaves no reason to refuse an answer"""
+
+
+def check_traits(method: BoundaryInterpolator, dim: int) -> None:
+    """The traits are well formed, and do not contradict each other."""
+    traits = method.traits
+    if not isinstance(traits, Traits):
+        raise BrokenPromiseError(f"{title(method)}: traits must be a sphframe.Traits, got {traits!r}")
+    fewest: object = traits.fewest_points
+    if not (isinstance(fewest, tuple) and len(fewest) == 2 and all(isinstance(n, int) and n >= 1 for n in fewest)):
+        raise BrokenPromiseError(
+            f"{title(method)}: fewest_points must be two whole numbers, for 2-D and 3-D, got {fewest!r}"
+        )
+    if traits.reproduces_degree not in (0, 1, 2):
+        raise BrokenPromiseError(
+            f"{title(method)}: reproduces_degree must be 0, 1 or 2, got {traits.reproduces_degree!r}"
+        )
+    if not isinstance(traits.evaluation_point, EvaluationPoint):
+        raise BrokenPromiseError(
+            f"{title(method)}: evaluation_point must be a sphframe.EvaluationPoint, got {traits.evaluation_point!r}"
+        )
+    if traits.range_restricted and not (traits.partition_of_unity and traits.non_negative):
+        raise BrokenPromiseError(
+            f"{title(method)}: range_restricted needs partition_of_unity and non_negative; a value between the smallest"
+            f" and the largest for every field is a weighted mean"
+        )
+    if traits.reproduces_degree > 0 and not traits.partition_of_unity:
+        raise BrokenPromiseError(
+            f"{title(method)}: a method exact on linear fields is exact on constants: partition_of_unity"
+        )
+    needed = (dim + 1) if traits.reproduces_degree == 1 else (dim + 1) * (dim + 2) // 2
+    if traits.reproduces_degree > 0 and fewest[dim - 2] < needed:
+        raise BrokenPromiseError(
+            f"{title(method)}: fewest_points says {fewest[dim - 2]} in {dim}-D, but polynomials of degree"
+            f" {traits.reproduces_degree} have {needed} coefficients"
+        )
+
+
+def check_fewest_points(method: BoundaryInterpolator, dim: int) -> None:
+    """With ``fewest_points`` neighbours in general position the status is OK, with one fewer it is not."""
+    run = evaluator_of(method, dim)
+    fewest = method.traits.fewest_points[dim - 2]
+    for seed in range(10):
+        cloud = _general_position(dim, fewest, seed)
+        outcome = run(cloud)
+        if outcome.status != OK:
+            raise broken(
+                method,
+                dim,
+                f"fewest_points promises OK for {fewest} neighbours in general position, but the status is"
+                f" {status_name(outcome)}",
+                cloud,
+            )
+        if fewest > 1:
+            cloud = cloud.members(np.arange(fewest - 1))
+            outcome = run(cloud)
+            if outcome.status == OK:
+                raise broken(
+                    method,
+                    dim,
+                    f"fewest_points says {fewest}, but the status is OK with {fewest - 1} neighbours: promise fewer, or"
+                    f" answer TOO_FEW",
+                    cloud,
+                )
+
+    def wrong_with(cloud: Cloud) -> str | None:
+        outcome = run(cloud)
+        if outcome.status == OK and len(cloud) < fewest:
+            return f"the status is OK with {len(cloud)} neighbours, and fewest_points says {fewest}"
+        return None
+
+    prove(method, dim, "fewer neighbours than fewest_points must not be answered with OK", wrong_with)
+
+    def refused(cloud: Cloud) -> str | None:
+        outcome = run(cloud)
+        well_placed = condition(cloud, 2) < 1e5 and magnification(cloud, 2) < WELL_PLACED
+        if outcome.status != OK and len(cloud) >= 3 * fewest and well_placed:
+            return f"the status is {status_name(outcome)} with {len(cloud)} well-placed neighbours"
+        return None
+
+    prove(method, dim, "a well-placed neighbourhood must be answered with OK", refused, REGULAR)
+
+
+def _general_position(dim: int, count: int, seed: int) -> Cloud:
+    """Vertices, then edge midpoints, of a regular simplex around the point: six of them (3-D: ten) fix a quadratic."""
+    rng = np.random.default_rng(seed)
+    vertices = np.linalg.qr(np.column_stack([np.ones(dim + 1), np.eye(dim + 1)[:, :dim]]))[0][:, 1:]
+    vertices /= np.linalg.norm(vertices, axis=1, keepdims=True)
+    middles = [0.5 * (vertices[a] + vertices[b]) for a in range(dim + 1) for b in range(a)]
+    points = np.array([*vertices, *middles])
+    if count > len(points):
+        points = np.concatenate([points, rng.uniform(-0.5, 0.5, (count - len(points), dim))])
+    rotation = np.linalg.qr(rng.normal(size=(dim, dim)))[0]
+    points = points[:count] @ rotation.T + rng.uniform(-0.1, 0.1, (count, dim))
+    return Cloud(1.5 * points, rng.uniform(0.8, 1.2, count), 3.9)

@@ -1,0 +1,118 @@
+"""Testing: kernels, one check function per property."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from sphframe.interfaces import Kernel
+from sphframe.specialise import compile_part
+from sphframe.testing.evaluation import title
+from sphframe.testing.proof import require
+
+__all__ = ["CHECKS"]
+
+
+def check_unit_integral(kernel: Kernel) -> None:
+    """The integral of W is one in one, two and three dimensions."""
+    value = kernel.value_function()
+    for dim, sphere in ((1, 2.0), (2, 2.0 * math.pi), (3, 4.0 * math.pi)):
+        integral = kernel.normalisation(dim) * _integral(value, dim - 1, kernel.support) * sphere
+        require(
+            abs(integral - 1.0) < 1e-9,
+            f"{title(kernel)}: the integral of W in {dim}-D is {integral:.12g}, not 1: mend normalisation({dim})",
+        )
+
+
+def check_moments(kernel: Kernel) -> None:
+    """The second moment is positive and below that of all mass at the cut-off: W is a smoothing kernel."""
+    value = kernel.value_function()
+    for dim, sphere in ((1, 2.0), (2, 2.0 * math.pi), (3, 4.0 * math.pi)):
+        moment = kernel.normalisation(dim) * _integral(value, dim + 1, kernel.support) * sphere
+        require(
+            0.0 < moment < kernel.support**2,
+            f"{title(kernel)}: the second moment of W in {dim}-D is {moment:.6g} h^2, outside of 0 .."
+            f" {kernel.support**2:g}",
+        )
+
+
+def check_gradient(kernel: Kernel) -> None:
+    """The gradient factor is the derivative of the value divided by q, and finite at the centre."""
+    value, factor = kernel.value_function(), kernel.gradient_function()
+    largest = max(abs(value(q)) for q in (0.0, 0.5 * kernel.support))
+    for q in np.linspace(0.013, 0.987, 57) * kernel.support:
+        step = 1e-5 * kernel.support
+        slope = (value(q + step) - value(q - step)) / (2.0 * step)
+        given = factor(q) * q
+        require(
+            abs(slope - given) < 1e-6 * largest,
+            f"{title(kernel)}: at q = {q:.6g} the gradient function times q is {given:.9g}, but differences of the"
+            f" value give {slope:.9g}; it must return w'(q)/q",
+        )
+    centre = factor(0.0)
+    require(
+        math.isfinite(centre) and abs(centre - factor(1e-4)) < 1e-3 * abs(centre),
+        f"{title(kernel)}: the gradient function is {centre} at q = 0 and {factor(1e-4)} beside it; return the"
+        f" limit w''(0)",
+    )
+    of_square = kernel.gradient_of_square_function()
+    for q in np.linspace(0.0, 0.999, 37) * kernel.support:
+        require(
+            math.isclose(of_square(float(q * q)), factor(float(q)), rel_tol=1e-9, abs_tol=1e-12 * abs(centre)),
+            f"{title(kernel)}: at q = {q:.6g} the gradient function of q^2 gives {of_square(float(q * q))}, that of q"
+            f" {factor(float(q))}",
+        )
+
+
+def check_compact_support(kernel: Kernel) -> None:
+    """The value falls to zero at the cut-off."""
+    value = kernel.value_function()
+    edge = value(kernel.support * (1.0 - 1e-9))
+    require(
+        abs(edge) < 1e-6 * value(0.0),
+        f"{title(kernel)}: w is {edge:.3g} at the cut-off q = {kernel.support:g}, not 0",
+    )
+
+
+def check_monotone(kernel: Kernel) -> None:
+    """The value is positive and falls from the centre to the cut-off."""
+    value = kernel.value_function()
+    q = np.linspace(0.0, 0.9999, 400) * kernel.support
+    values = np.array([value(x) for x in q])
+    require(bool(np.all(values > 0.0)), f"{title(kernel)}: w is not positive at q = {q[np.argmin(values)]:.6g}")
+    rises = np.flatnonzero(np.diff(values) >= 0.0)
+    require(not len(rises), f"{title(kernel)}: w does not fall at q = {q[rises[0]] if len(rises) else 0.0:.6g}")
+
+
+def check_compiles(kernel: Kernel) -> None:
+    """Compiled and plain Python agree."""
+    for function in (kernel.value_function(), kernel.gradient_function(), kernel.gradient_of_square_function()):
+        compiled = compile_part(function)
+        for q in np.linspace(0.0, 0.999, 37) * kernel.support:
+            require(
+                math.isclose(compiled(float(q)), function(float(q)), rel_tol=1e-9, abs_tol=1e-12),
+                f"{title(kernel)}: at q = {q:.6g}, compiled {compiled(float(q))} and plain Python {function(float(q))}"
+                f" differ",
+            )
+
+
+def _integral(value: Callable[[float], float], power: int, upper: float) -> float:
+    """The integral of w(q) q^power by Gauss-Legendre in 60 pieces; the knots of the usual splines lie between them."""
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    width = upper / 60
+    total = 0.0
+    for k in range(60):
+        q = width * (k + 0.5 + 0.5 * nodes)
+        total += 0.5 * width * float(weights @ np.array([value(float(x)) * x**power for x in q]))
+    return total
+
+
+CHECKS: dict[str, Callable[[Kernel], None]] = {
+    "unit_integral": check_unit_integral,
+    "moments": check_moments,
+    "gradient": check_gradient,
+    "compact_support": check_compact_support,
+    "monotone": check_monotone,
+    "compiles": check_compiles,
+}
+"""the checks of a kernel, by the name of the property"""

@@ -1,0 +1,109 @@
+"""Testing: rigid bodies, one check function per property."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from sphframe.interfaces import RigidBody
+from sphframe.testing.evaluation import title
+from sphframe.testing.proof import require
+
+__all__ = ["CHECKS"]
+
+
+def check_motion(body: RigidBody) -> None:
+    """The motion is finite, of three generalised coordinates, and the same for the same arguments."""
+    for time in (0.0, 0.3, 2.7):
+        first, second = (body.motion(time, np.zeros(3), np.zeros(3), np.zeros(3)) for _ in range(2))
+        for name, a, b in zip(first._fields, first, second, strict=True):
+            require(
+                np.shape(a) == (3,) and bool(np.all(np.isfinite(a))),
+                f"{title(body)}: the {name} at {time} s is {a!r}; it must be three finite numbers",
+            )
+            require(
+                np.array_equal(a, b),
+                f"{title(body)}: the {name} at {time} s differs between two calls with the same arguments; keep no"
+                f" state",
+            )
+
+
+def check_derivatives(body: RigidBody) -> None:
+    """A prescribed motion has consistent derivatives; a dynamic body keeps the position and velocity it is given."""
+    given, moving = np.array([0.01, -0.02, 0.03]), np.array([0.1, 0.2, -0.1])
+    kept = body.motion(0.5, given, moving, np.zeros(3))
+    if np.array_equal(kept.position, given) or not _is_prescribed(body):
+        return
+    step = 1e-5
+    for time in (0.11, 0.37, 1.3, 2.9):
+        before, now, after = (body.motion(t, given, moving, np.zeros(3)) for t in (time - step, time, time + step))
+        for name, low, high, rate in (
+            ("velocity", before.position, after.position, now.velocity),
+            ("acceleration", before.velocity, after.velocity, now.acceleration),
+        ):
+            slope = (high - low) / (2.0 * step)
+            require(
+                bool(np.allclose(slope, rate, rtol=1e-4, atol=1e-4 * (1.0 + float(np.max(np.abs(rate)))))),
+                f"{title(body)}: at {time} s the {name} is {rate.tolist()}, but differences give {slope.tolist()}",
+            )
+
+
+def check_momentum(body: RigidBody) -> None:
+    """The acceleration of a dynamic body away from its stops is affine in the load: force = mass times acceleration."""
+    if not body.needs_load:
+        return
+    position, velocity = np.full(3, 1e-3), np.zeros(3)
+    loads = [np.array([1e6 + 1e3 * k, 1e3 * k, 10.0 * k]) for k in range(3)]
+    a0, a1, a2 = (body.motion(0.0, position, velocity, load).acceleration for load in loads)
+    require(
+        bool(np.allclose(a2 - a1, a1 - a0, rtol=1e-6, atol=1e-12 * float(np.max(np.abs(a0)) + 1.0))),
+        f"{title(body)}: load steps of equal size change the acceleration by {(a1 - a0).tolist()} and then by"
+        f" {(a2 - a1).tolist()}: force = mass times acceleration",
+    )
+
+
+def check_spring_period(body: RigidBody) -> None:
+    """A body with ``mass`` and ``stiffness`` along x swings with the period 2 pi sqrt(m/k) about a constant load."""
+    mass, stiffness = getattr(body, "mass", None), getattr(body, "stiffness", None)
+    if not (body.needs_load and mass and stiffness):
+        return
+    period = 2.0 * math.pi * math.sqrt(mass / stiffness)
+    load = np.array([1e3 * stiffness + 1e6, 0.0, 0.0])
+    near, far = (body.motion(0.0, np.array([x, 0.0, 0.0]), np.zeros(3), load).acceleration[0] for x in (1.0, 2.0))
+    measured = 2.0 * math.pi / math.sqrt(max(near - far, 1e-300))
+    require(
+        math.isclose(measured, period, rel_tol=1e-6),
+        f"{title(body)}: the acceleration falls by {near - far:.6g} m/s^2 per metre, a period of {measured:.6g} s"
+        f" instead of 2 pi sqrt(m/k) = {period:.6g} s",
+    )
+
+
+def check_stop(body: RigidBody) -> None:
+    """A body corrected to another position, at a stop, has no velocity left towards the stop."""
+    if not body.needs_load:
+        return
+    for direction in (-1.0, 1.0):
+        position, velocity = np.array([10.0 * direction, 0.0, 0.0]), np.array([direction, 0.0, 0.0])
+        motion = body.motion(0.0, position, velocity, np.zeros(3))
+        if motion.position[0] != position[0]:
+            require(
+                motion.velocity[0] * direction <= 0.0,
+                f"{title(body)}: at its stop x = {motion.position[0]:g} the velocity is {motion.velocity[0]:g}, further"
+                f" into the stop",
+            )
+
+
+def _is_prescribed(body: RigidBody) -> bool:
+    """Whether the motion ignores where the body is said to be."""
+    one, other = (body.motion(0.5, np.full(3, x), np.full(3, x), np.zeros(3)) for x in (0.0, 0.01))
+    return bool(np.array_equal(one.position, other.position))
+
+
+CHECKS: dict[str, Callable[[RigidBody], None]] = {
+    "motion": check_motion,
+    "derivatives": check_derivatives,
+    "momentum": check_momentum,
+    "spring_period": check_spring_period,
+    "stop": check_stop,
+}
+"""the checks of a rigid body, by the name of the property"""
