@@ -1,23 +1,12 @@
 """Cases: what to simulate, as frozen and validated parameters in SI units; built-in, from a TOML file, or in Python."""
 
-from sphframe.cases.case import (
-    Case,
-    Component,
-    Derived,
-    Diagnostic,
-    Fields,
-    Gauge,
-    Guards,
-    Parameter,
-    Probe,
-    Scene,
-    parameters_of,
-    quantity,
-    written,
-)
+from sphframe.cases.case import Case, Guards, Parameter, parameters_of
 from sphframe.cases.checks import CaseWarning, check_case
 from sphframe.cases.custom import Custom
 from sphframe.cases.load import load_case, read_toml
+from sphframe.cases.parameters import Component, Derived, quantity, with_default, written
+from sphframe.cases.scene import Diagnostic, Gauge, Probe, Scene
+from sphframe.interfaces import Fields
 
 __all__ = [
     "Case",
@@ -37,5 +26,6 @@ __all__ = [
     "parameters_of",
     "quantity",
     "read_toml",
+    "with_default",
     "written",
 ]

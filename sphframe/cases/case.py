@@ -2,78 +2,18 @@
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
-from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self
+from collections.abc import Iterator, Mapping
+from typing import Any, ClassVar, Literal, NamedTuple, Self
 
-import numpy as np
-from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_serializer, model_validator
-from pydantic_core import PydanticUndefined
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from sphframe.cases.explain import explain
+from sphframe.cases.parameters import Component, Derived, quantity, unit_of, written
+from sphframe.cases.scene import Scene
 from sphframe.errors import InputError
-from sphframe.geometry import Region, Wall
-from sphframe.interfaces import Fields, RigidBody
-from sphframe.registry import create
 from sphframe.representation import html_table
 
-__all__ = [
-    "Case",
-    "Component",
-    "Derived",
-    "Diagnostic",
-    "Fields",
-    "Gauge",
-    "Guards",
-    "Parameter",
-    "Probe",
-    "Scene",
-    "parameters_of",
-    "quantity",
-    "written",
-]
-
-Array = NDArray[np.float64]
-
-
-class Component(BaseModel):
-    """A component chosen by name, with its options: ``"mls-linear"`` or ``{"name": "sfdi", "form": "printed"}``."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    name: str
-    options: dict[str, Any] = {}
-
-    @model_validator(mode="before")
-    @classmethod
-    def _from_name_or_table(cls, given: Any) -> Any:
-        if isinstance(given, str):
-            return {"name": given}
-        if isinstance(given, Mapping) and "name" in given and not isinstance(given.get("options"), Mapping):
-            return {"name": given["name"], "options": {k: v for k, v in given.items() if k != "name"}}
-        return given
-
-    def create(self, kind: str) -> Any:
-        """Make the component of ``kind``, one of :data:`sphframe.registry.KINDS`, with its options.
-
-        Raises
-        ------
-        InputError, PluginError: as :func:`sphframe.registry.create` does.
-        """
-        return create(kind, self.name, **self.options)
-
-    @model_serializer
-    def _as_table(self) -> dict[str, Any]:
-        return {"name": self.name, **self.options}
-
-
-@dataclass(frozen=True)
-class Derived:
-    """A default that follows from other parameters: ``Derived("2 depth", lambda case: 2 * case.depth)``."""
-
-    text: str
-    function: Callable[[Any], Any]
+__all__ = ["Case", "Guards", "Parameter", "parameters_of"]
 
 
 class Guards(BaseModel):
@@ -97,73 +37,6 @@ class Guards(BaseModel):
         if not 0.0 <= low < 1.0 < high:
             raise ValueError("density_band must hold 1, the reference density, such as [0.5, 1.5]")
         return self
-
-
-def quantity(default: Any, unit: str, description: str, **bounds: Any) -> Any:
-    """A parameter of a case with its unit; ``default`` may be ``...`` for a required one, or :class:`Derived`."""
-    return Field(default, description=description, json_schema_extra={"unit": unit}, **bounds)
-
-
-class Probe(BaseModel):
-    """A pressure sensor: a point, or a disc of ``radius`` whose pressure is averaged along its ``tangent``."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-    name: str = Field(min_length=1, max_length=64)
-    position: tuple[float, ...] = Field(min_length=2, max_length=3)
-    radius: Annotated[float, Field(ge=0)] = 0.0
-    tangent: Annotated[tuple[float, ...], Field(min_length=2, max_length=3)] | None = None
-    """direction along the wall, needed for a disc"""
-
-    @model_validator(mode="after")
-    def _disc_has_a_direction(self) -> "Probe":
-        if self.radius > 0 and self.tangent is None:
-            raise ValueError("a probe with a radius is a disc: give its tangent, a vector along the wall")
-        if self.tangent is not None and not any(self.tangent):
-            raise ValueError("tangent is the zero vector: give a vector along the wall, such as [0, 1]")
-        return self
-
-
-class Gauge(BaseModel):
-    """A free-surface elevation gauge at the horizontal position ``position`` (x in 2-D; x, y in 3-D)."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-    name: str = Field(min_length=1, max_length=64)
-    position: tuple[float, ...] = Field(min_length=1, max_length=2)
-
-
-@dataclass(frozen=True)
-class Diagnostic:
-    """A number computed from the fluid whenever the probes are sampled.
-
-    With a ``body``, the function sees the fluid's positions in the frame in which that body was drawn.
-    """
-
-    name: str
-    unit: str
-    long_name: str
-    function: Callable[[Fields], float]
-    body: str | None = None
-
-
-@dataclass(frozen=True)
-class Scene:
-    """What a case puts into the world, in SI units; gravity points along the last axis, downwards."""
-
-    walls: tuple[Wall, ...]
-    fluid: tuple[Region, ...]
-    depth: float
-    """still water depth H: the scale of pressure (rho g H), time (sqrt(H/g)) and of the default sound speed"""
-    domain: tuple[tuple[float, ...], tuple[float, ...]]
-    """lower and upper corner of the box that no particle may leave"""
-    probes: tuple[Probe, ...] = ()
-    gauges: tuple[Gauge, ...] = ()
-    bodies: Mapping[str, RigidBody] = field(default_factory=dict)
-    """the bodies that carry walls, by the name that the walls refer to"""
-    initial_pressure: Callable[[Array], Array] | None = None
-    """p(position (n, dim)) -> (n,), Pa; None is the compressible rest state below the still water level"""
-    diagnostics: tuple[Diagnostic, ...] = ()
 
 
 class Case(BaseModel, ABC):
@@ -284,26 +157,6 @@ def parameters_of(case: Case | type[Case]) -> list[Parameter]:
     result = []
     for name in [*own, *Case.model_fields]:
         info = model.model_fields[name]
-        extra = info.json_schema_extra
-        unit = str(extra.get("unit", "")) if isinstance(extra, dict) else ""
         value = written(info.default if isinstance(case, type) else getattr(case, name))
-        result.append(Parameter(name, value, "" if unit == "1" else unit, info.description or ""))
+        result.append(Parameter(name, value, unit_of(info), info.description or ""))
     return result
-
-
-def written(value: Any) -> str:
-    """A value as it would be given, a derived default as its formula."""
-    if value is PydanticUndefined:
-        return "(required)"
-    if isinstance(value, Derived):
-        return value.text
-    if isinstance(value, Component):
-        table = value.model_dump()
-        return value.name if len(table) == 1 else str(table)
-    if isinstance(value, BaseModel):
-        return ", ".join(f"{name} = {written(inner)}" for name, inner in value)
-    if value is None:
-        return "(automatic)"
-    if isinstance(value, tuple | dict) and not value:
-        return "(none)"
-    return f"{value:g}" if isinstance(value, float) else str(value)

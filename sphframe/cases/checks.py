@@ -7,7 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from sphframe.cases.case import Case, Component, Scene
+from sphframe.cases.case import Case
+from sphframe.cases.parameters import Component
+from sphframe.cases.scene import Scene
 from sphframe.errors import InputError, SphframeError
 from sphframe.geometry import Region, lattice
 from sphframe.interfaces import Integrator

@@ -5,7 +5,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from sphframe.cases.case import Case, Component, Derived, Gauge, Probe, Scene, quantity
+from sphframe.cases.case import Case
+from sphframe.cases.parameters import Component, Derived, quantity, with_default
+from sphframe.cases.scene import Gauge, Probe, Scene
 from sphframe.geometry import Region, Wall
 
 __all__ = ["Custom"]
@@ -48,17 +50,11 @@ class Custom(Case):
     domain: tuple[tuple[float, ...], tuple[float, ...]] | None = quantity(
         None, "m", "corners of the box that no particle may leave; by default around all walls, twice as high"
     )
-    frame_interval: float = quantity(
-        Derived("until / 100", lambda case: case.until / 100.0),
-        "s",
-        "time between stored frames of all particles",
-        gt=0,
+    frame_interval: float = with_default(
+        Case, "frame_interval", Derived("until / 100", lambda case: case.until / 100.0)
     )
-    probe_interval: float = quantity(
-        Derived("until / 2000", lambda case: case.until / 2000.0),
-        "s",
-        "time between samples of probes, energies and diagnostics",
-        gt=0,
+    probe_interval: float = with_default(
+        Case, "probe_interval", Derived("until / 2000", lambda case: case.until / 2000.0)
     )
 
     def scene(self) -> Scene:

@@ -8,8 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sphframe.cases.box_tank import box_tank, domain_above, water_box, with_width
-from sphframe.cases.case import Case, Derived, Diagnostic, Fields, Probe, Scene, quantity
-from sphframe.cases.dam_break_series import dam_break_pressure
+from sphframe.cases.case import Case
+from sphframe.cases.dam_break_series import WaterColumn
+from sphframe.cases.parameters import Derived, quantity, with_default
+from sphframe.cases.scene import Diagnostic, Probe, Scene
+from sphframe.interfaces import Fields
 
 __all__ = ["DamBreak", "connected_extent"]
 
@@ -67,15 +70,12 @@ class DamBreak(Case):
     tank_width: float = quantity(
         Derived("water_height / 2", lambda case: 0.5 * case.water_height), "m", "width of the tank, in 3-D", gt=0
     )
-    particle_spacing: float = quantity(0.01, "m", "spacing of the particles at the start", gt=0)
-    until: float = quantity(
-        Derived("7 sqrt(water_height / gravity)", lambda case: 7.0 * case.time_scale),
-        "s",
-        "time at which the run ends",
-        gt=0,
+    particle_spacing: float = with_default(Case, "particle_spacing", 0.01)
+    until: float = with_default(
+        Case, "until", Derived("7 sqrt(water_height / gravity)", lambda case: 7.0 * case.time_scale)
     )
-    frame_interval: float = quantity(0.02, "s", "time between stored frames of all particles", gt=0)
-    probe_interval: float = quantity(0.001, "s", "time between samples of probes, energies and diagnostics", gt=0)
+    frame_interval: float = with_default(Case, "frame_interval", 0.02)
+    probe_interval: float = with_default(Case, "probe_interval", 0.001)
 
     @property
     def time_scale(self) -> float:
@@ -87,18 +87,7 @@ class DamBreak(Case):
         dim, height, length = self.dimension, self.water_height, self.water_length
         tank = box_tank(dim, self.tank_length, self.tank_width, self.tank_height)
         sound_speed = self.reference_sound_speed(height)
-
-        def initial_pressure(position: Array) -> Array:
-            return dam_break_pressure(
-                position[:, 0],
-                position[:, -1],
-                height=height,
-                length=length,
-                reference_density=self.reference_density,
-                gravity=self.gravity,
-                sound_speed=sound_speed,
-            )
-
+        column = WaterColumn(height, length, self.reference_density, self.gravity, sound_speed)
         band = max(0.05 * height, 3.0 * self.particle_spacing)
         gap = 2.0 * self.smoothing_length_ratio * self.particle_spacing
 
@@ -125,7 +114,7 @@ class DamBreak(Case):
                 Probe(name="P1-point", position=sensor),
                 Probe(name="P1-shifted", position=shifted, radius=0.075 * height, tangent=upward),
             ),
-            initial_pressure=initial_pressure,
+            initial_pressure=lambda position: column.pressure(position[:, 0], position[:, -1]),
             diagnostics=(
                 Diagnostic("front_position", "m", "x of the surge front", front_position),
                 Diagnostic("column_height", "m", "height of the water at the left wall", column_height),

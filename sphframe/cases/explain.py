@@ -6,6 +6,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from sphframe.cases.parameters import unit_of
 from sphframe.registry.nearest import did_you_mean
 
 __all__ = ["explain", "plain"]
@@ -63,7 +64,7 @@ def _problems(error: ValidationError, model: type[BaseModel]) -> Iterator[str]:
         else:
             expected = re.sub("^(Input|String|List|Dictionary|Tuple) should", "must", detail["msg"])
             expected = expected[0].lower() + expected[1:]
-            unit = _unit(field) if len(detail["loc"]) == 1 else ""
+            unit = unit_of(field) if field is not None and len(detail["loc"]) == 1 else ""
             hint = f"; give the number in {unit}, without the unit" if kind == "float_parsing" and unit else ""
             yield f"{place} = {plain(given)} {_joined(expected)}{f' {unit}' if unit and not hint else ''}{hint}"
 
@@ -83,9 +84,3 @@ def _place(location: tuple[int | str, ...]) -> str:
 
 def _joined(expected: str) -> str:
     return expected if expected.startswith("must") else f"is wrong: {expected}"
-
-
-def _unit(field: Any) -> str:
-    extra = getattr(field, "json_schema_extra", None)
-    unit = extra.get("unit", "") if isinstance(extra, dict) else ""
-    return "" if unit == "1" else str(unit)

@@ -3,7 +3,9 @@
 from typing import ClassVar, Literal
 
 from sphframe.bodies import Free
-from sphframe.cases.case import Case, Derived, Gauge, Scene, quantity
+from sphframe.cases.case import Case
+from sphframe.cases.parameters import Derived, quantity, with_default
+from sphframe.cases.scene import Gauge, Scene
 from sphframe.geometry import PolygonRegion, PolygonWall
 
 __all__ = ["FloatingBody"]
@@ -32,10 +34,10 @@ class FloatingBody(Case):
         "draught at the start",
         gt=0,
     )
-    particle_spacing: float = quantity(0.01, "m", "spacing of the particles at the start", gt=0)
-    until: float = quantity(4.0, "s", "time at which the run ends", gt=0)
-    frame_interval: float = quantity(0.05, "s", "time between stored frames of all particles", gt=0)
-    probe_interval: float = quantity(0.005, "s", "time between samples of probes, energies and diagnostics", gt=0)
+    particle_spacing: float = with_default(Case, "particle_spacing", 0.01)
+    until: float = with_default(Case, "until", 4.0)
+    frame_interval: float = with_default(Case, "frame_interval", 0.05)
+    probe_interval: float = with_default(Case, "probe_interval", 0.005)
 
     def box_mass(self) -> float:
         """Return the mass of the box, kg per metre of width."""

@@ -4,7 +4,9 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from sphframe.cases.box_tank import box_tank, domain_above, water_box, with_width
-from sphframe.cases.case import Case, Derived, Probe, Scene, quantity
+from sphframe.cases.case import Case
+from sphframe.cases.parameters import Derived, quantity, with_default
+from sphframe.cases.scene import Probe, Scene
 
 __all__ = ["HydrostaticTank"]
 
@@ -46,10 +48,10 @@ class HydrostaticTank(Case):
     tank_height: float = quantity(
         Derived("4/3 water_depth", lambda case: case.water_depth * 4.0 / 3.0), "m", "height of the walls", gt=0
     )
-    particle_spacing: float = quantity(0.01, "m", "spacing of the particles at the start", gt=0)
-    until: float = quantity(2.0, "s", "time at which the run ends", gt=0)
-    frame_interval: float = quantity(0.1, "s", "time between stored frames of all particles", gt=0)
-    probe_interval: float = quantity(0.002, "s", "time between samples of probes, energies and diagnostics", gt=0)
+    particle_spacing: float = with_default(Case, "particle_spacing", 0.01)
+    until: float = with_default(Case, "until", 2.0)
+    frame_interval: float = with_default(Case, "frame_interval", 0.1)
+    probe_interval: float = with_default(Case, "probe_interval", 0.002)
 
     def scene(self) -> Scene:
         """Draw a tank full of water with four probes on its left wall."""

@@ -8,8 +8,9 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from sphframe.cases.case import Case, Component
+from sphframe.cases.case import Case
 from sphframe.cases.checks import check_case
+from sphframe.cases.parameters import Component
 from sphframe.errors import InputError
 from sphframe.registry import is_address, load
 from sphframe.registry.nearest import did_you_mean

@@ -9,9 +9,11 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from sphframe.bodies import SolitaryWavePaddle
-from sphframe.cases.case import Case, Derived, Diagnostic, Fields, Gauge, Probe, Scene, quantity
+from sphframe.cases.case import Case
+from sphframe.cases.parameters import Derived, quantity, with_default
+from sphframe.cases.scene import Diagnostic, Gauge, Probe, Scene
 from sphframe.geometry import PolygonRegion, PolygonWall
-from sphframe.interfaces import RigidBody
+from sphframe.interfaces import Fields, RigidBody
 
 __all__ = ["SolitaryWaveFlume", "run_up_along"]
 
@@ -38,8 +40,8 @@ class SolitaryWaveFlume(Case):
         "height of paddle and seawall",
         gt=0,
     )
-    particle_spacing: float = quantity(
-        Derived("depth / 25", lambda case: case.depth / 25.0), "m", "spacing of the particles at the start", gt=0
+    particle_spacing: float = with_default(
+        Case, "particle_spacing", Derived("depth / 25", lambda case: case.depth / 25.0)
     )
     gauge_positions: tuple[float, ...] = quantity(
         Derived(
@@ -53,17 +55,16 @@ class SolitaryWaveFlume(Case):
         "m",
         "heights of the pressure probes on the seawall above the bed",
     )
-    until: float = quantity(
+    until: float = with_default(
+        Case,
+        "until",
         Derived(
             "arrival at the wall + 6 sqrt(depth / gravity)",
             lambda case: case.paddle().arrival_time(case.tank_length) + 6.0 * math.sqrt(case.depth / case.gravity),
         ),
-        "s",
-        "time at which the run ends",
-        gt=0,
     )
-    frame_interval: float = quantity(0.1, "s", "time between stored frames of all particles", gt=0)
-    probe_interval: float = quantity(0.005, "s", "time between samples of probes, energies and diagnostics", gt=0)
+    frame_interval: float = with_default(Case, "frame_interval", 0.1)
+    probe_interval: float = with_default(Case, "probe_interval", 0.005)
 
     def paddle(self) -> SolitaryWavePaddle:
         """Return the paddle, which knows the wave's theoretical speed and time of arrival."""

@@ -4,7 +4,8 @@ import math
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
-from sphframe.cases.case import Scene, quantity
+from sphframe.cases.parameters import quantity
+from sphframe.cases.scene import Scene
 from sphframe.cases.solitary_wave import SolitaryWaveFlume
 from sphframe.geometry import PolygonWall
 

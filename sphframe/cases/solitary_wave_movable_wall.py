@@ -5,7 +5,8 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from sphframe.bodies import SpringMass
-from sphframe.cases.case import Derived, Scene, quantity
+from sphframe.cases.parameters import Derived, quantity, with_default
+from sphframe.cases.scene import Scene
 from sphframe.cases.solitary_wave import SolitaryWaveFlume
 from sphframe.geometry import PolygonWall
 
@@ -47,12 +48,9 @@ class SolitaryWaveMovableWall(SolitaryWaveFlume):
         },
     }
 
-    depth: float = quantity(0.2, "m", "still water depth d", gt=0)
-    wave_height: float = quantity(
-        Derived("0.3 depth", lambda case: 0.3 * case.depth),
-        "m",
-        "height A of the wave that the paddle is to make",
-        gt=0,
+    depth: float = with_default(SolitaryWaveFlume, "depth", 0.2)
+    wave_height: float = with_default(
+        SolitaryWaveFlume, "wave_height", Derived("0.3 depth", lambda case: 0.3 * case.depth)
     )
     tank_length: float = quantity(2.5, "m", "distance from the paddle to the seawall, both at the start", gt=0)
     wall_mass: float = quantity(250.0, "kg m-1", "mass of the seawall per metre of width", gt=0)
@@ -64,7 +62,7 @@ class SolitaryWaveMovableWall(SolitaryWaveFlume):
         Derived("tank_length", lambda case: case.tank_length), "m", "length of the bed behind the seawall", gt=0
     )
     probe_heights: tuple[float, ...] = quantity((0.0,), "m", "heights of the pressure probes at the seawall's start")
-    until: float = quantity(4.5, "s", "time at which the run ends", gt=0)
+    until: float = with_default(SolitaryWaveFlume, "until", 4.5)
 
     def scene(self) -> Scene:
         """Draw the flume."""

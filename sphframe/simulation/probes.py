@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from sphframe.cases.case import Gauge, Probe
+from sphframe.cases import Gauge, Probe
 from sphframe.errors import InputError
 
 __all__ = ["Gauges", "PressureProbes"]

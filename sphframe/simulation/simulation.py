@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.operator import compiled_kernel
-from sphframe.cases.case import Case, Fields, Scene
+from sphframe.cases import Case, Fields, Scene
 from sphframe.errors import InputError, SimulationError
 from sphframe.geometry import lattice, lattice_cell, wall_panels
 from sphframe.interfaces import EquationOfState, Kernel, Motion, Status

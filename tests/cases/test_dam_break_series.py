@@ -5,19 +5,13 @@ import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.linalg import spsolve
 
-from sphframe.cases.dam_break_series import dam_break_density, dam_break_pressure
+from sphframe.cases.dam_break_series import WaterColumn
 
 RHO0, GRAVITY = 1000.0, 9.81
 
 
-def column(height: float, length: float) -> dict[str, float]:
-    return {
-        "height": height,
-        "length": length,
-        "reference_density": RHO0,
-        "gravity": GRAVITY,
-        "sound_speed": 20.0 * float(np.sqrt(GRAVITY * height)),
-    }
+def column(height: float, length: float, **options: int) -> WaterColumn:
+    return WaterColumn(height, length, RHO0, GRAVITY, 20.0 * float(np.sqrt(GRAVITY * height)), **options)
 
 
 def finite_differences(height: float, length: float, sound_speed: float, cells: int) -> tuple[np.ndarray, ...]:
@@ -59,54 +53,54 @@ def finite_differences(height: float, length: float, sound_speed: float, cells: 
 @pytest.mark.parametrize(("height", "length"), [(0.6, 1.2), (0.6, 0.6), (0.3, 1.2)])
 def test_series_solves_the_laplace_equation(height: float, length: float) -> None:
     given = column(height, length)
-    x, y, pressure = finite_differences(height, length, given["sound_speed"], cells=150)
-    difference = dam_break_pressure(x, y, **given) - pressure
+    x, y, pressure = finite_differences(height, length, given.sound_speed, cells=150)
+    difference = given.pressure(x, y) - pressure
     largest = np.abs(difference).max() / (RHO0 * GRAVITY * height)
     assert largest < 1e-3, f"largest difference over all nodes is {largest:.2e} of rho g H"
     # what differs is the finite differences beside the corner (L, 0), where the condition at the side jumps: it halves
     # with the step
-    x, y, pressure = finite_differences(height, length, given["sound_speed"], cells=75)
-    coarse = np.abs(dam_break_pressure(x, y, **given) - pressure).max() / (RHO0 * GRAVITY * height)
+    x, y, pressure = finite_differences(height, length, given.sound_speed, cells=75)
+    coarse = np.abs(given.pressure(x, y) - pressure).max() / (RHO0 * GRAVITY * height)
     assert coarse / largest == pytest.approx(2.0, rel=0.05)
 
 
 def test_density_is_that_of_the_linear_equation_of_state() -> None:
     x, y = np.meshgrid(np.linspace(0.0, 1.2, 25), np.linspace(0.0, 0.6, 13))
     given = column(0.6, 1.2)
-    density = dam_break_density(x, y, **given)
-    assert dam_break_pressure(x, y, **given) == pytest.approx(given["sound_speed"] ** 2 * (density - RHO0))
+    density = given.density(x, y)
+    assert given.pressure(x, y) == pytest.approx(given.sound_speed**2 * (density - RHO0))
 
 
 @pytest.mark.parametrize(
     ("x", "y", "expected"), [(0.0, 0.0, 0.93213), (0.0, 0.3, 0.45155), (0.6, 0.0, 0.8254)], ids=str
 )
 def test_reference_values(x: float, y: float, expected: float) -> None:
-    pressure = dam_break_pressure(np.array([x]), np.array([y]), **column(0.6, 1.2))
+    pressure = column(0.6, 1.2).pressure(np.array([x]), np.array([y]))
     assert pressure[0] / (RHO0 * GRAVITY * 0.6) == pytest.approx(expected, abs=2e-5)
 
 
 def test_force_on_the_left_wall() -> None:
     y = np.linspace(0.0, 0.6, 2001)
-    pressure = dam_break_pressure(np.zeros_like(y), y, **column(0.6, 1.2))
+    pressure = column(0.6, 1.2).pressure(np.zeros_like(y), y)
     assert np.trapezoid(pressure, y) / (0.5 * RHO0 * GRAVITY * 0.6**2) == pytest.approx(0.913, abs=5e-4)
 
 
 def test_many_terms_do_not_overflow() -> None:
-    pressure = dam_break_pressure(np.array([0.1]), np.array([0.0]), **column(0.6, 1.2), terms=5000)
+    pressure = column(0.6, 1.2, terms=5000).pressure(np.array([0.1]), np.array([0.0]))
     assert np.all(np.isfinite(pressure))
 
 
 def test_truncation_error_is_as_stated() -> None:
     x, y = np.meshgrid(np.linspace(0.0, 1.2, 25), np.linspace(0.0, 0.6, 13))
-    by_default = dam_break_pressure(x, y, **column(0.6, 1.2))
-    converged = dam_break_pressure(x, y, **column(0.6, 1.2), terms=8192)
+    by_default = column(0.6, 1.2).pressure(x, y)
+    converged = column(0.6, 1.2, terms=8192).pressure(x, y)
     assert np.abs(by_default - converged).max() / (RHO0 * GRAVITY * 0.6) < 2e-5
 
 
 def test_free_sides_have_no_pressure() -> None:
     s = np.linspace(0.0, 1.0, 21)
     given = column(0.6, 1.2)
-    top = dam_break_pressure(1.2 * s, np.full(21, 0.6), **given)
-    right = dam_break_pressure(np.full(21, 1.2), 0.6 * s, **given)
+    top = given.pressure(1.2 * s, np.full(21, 0.6))
+    right = given.pressure(np.full(21, 1.2), 0.6 * s)
     assert np.abs(top).max() < 1e-6
     assert np.abs(right).max() < 1e-6

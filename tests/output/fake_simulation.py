@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from sphframe.cases.case import Case, Diagnostic, Fields, Gauge, Probe, Scene
+from sphframe.cases import Case, Diagnostic, Fields, Gauge, Probe, Scene
 from sphframe.geometry import BoxRegion, PolygonWall
 from sphframe.interfaces import Motion, RigidBody, Status
 from sphframe.output import NetCDFWriter

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from sphframe.bodies import Prescribed
-from sphframe.cases.case import Case, Gauge, Probe, Scene
+from sphframe.cases import Case, Gauge, Probe, Scene
 from sphframe.cases.floating_body import FloatingBody
 from sphframe.cases.solitary_wave_fixed_wall import SolitaryWaveFixedWall
 from sphframe.cases.solitary_wave_movable_wall import SolitaryWaveMovableWall

@@ -1,0 +1,89 @@
+"""Cases: how a parameter is declared, with its unit and meaning, and how its value is written."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field, model_serializer, model_validator
+from pydantic.fields import FieldInfo
+from pydantic_core import PydanticUndefined
+
+from sphframe.registry import create
+
+__all__ = ["Component", "Derived", "quantity", "unit_of", "with_default", "written"]
+
+
+class Component(BaseModel):
+    """A component chosen by name, with its options: ``"mls-linear"`` or ``{"name": "sfdi", "form": "printed"}``."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str
+    options: dict[str, Any] = {}
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_name_or_table(cls, given: Any) -> Any:
+        if isinstance(given, str):
+            return {"name": given}
+        if isinstance(given, Mapping) and "name" in given and not isinstance(given.get("options"), Mapping):
+            return {"name": given["name"], "options": {k: v for k, v in given.items() if k != "name"}}
+        return given
+
+    def create(self, kind: str) -> Any:
+        """Make the component of ``kind``, one of :data:`sphframe.registry.KINDS`, with its options.
+
+        Raises
+        ------
+        InputError, PluginError: as :func:`sphframe.registry.create` does.
+        """
+        return create(kind, self.name, **self.options)
+
+    @model_serializer
+    def _as_table(self) -> dict[str, Any]:
+        return {"name": self.name, **self.options}
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A default that follows from other parameters: ``Derived("2 depth", lambda case: 2 * case.depth)``."""
+
+    text: str
+    function: Callable[[Any], Any]
+
+
+def quantity(default: Any, unit: str, description: str, **bounds: Any) -> Any:
+    """A parameter of a case with its unit; ``default`` may be ``...`` for a required one, or :class:`Derived`."""
+    return Field(default, description=description, json_schema_extra={"unit": unit}, **bounds)
+
+
+def with_default(model: type[BaseModel], name: str, default: Any) -> Any:
+    """Declare again the parameter ``name`` of ``model`` with another default: same unit, meaning and bounds."""
+    info = model.model_fields[name]
+    bounds = {key: value for bound in info.metadata for key, value in asdict(bound).items()}
+    return quantity(default, unit_of(info), info.description or "", **bounds)
+
+
+def unit_of(info: FieldInfo) -> str:
+    """Return the unit of a parameter declared by :func:`quantity`; empty where it is dimensionless."""
+    extra = info.json_schema_extra
+    unit = str(extra.get("unit", "")) if isinstance(extra, dict) else ""
+    return "" if unit == "1" else unit
+
+
+def written(value: Any) -> str:
+    """A value as it would be given, a derived default as its formula."""
+    if value is PydanticUndefined:
+        return "(required)"
+    if isinstance(value, Derived):
+        return value.text
+    if isinstance(value, Component):
+        table = value.model_dump()
+        return value.name if len(table) == 1 else str(table)
+    if isinstance(value, BaseModel):
+        return ", ".join(f"{name} = {written(inner)}" for name, inner in value)
+    if value is None:
+        return "(automatic)"
+    if isinstance(value, tuple | dict) and not value:
+        return "(none)"
+    return f"{value:g}" if isinstance(value, float) else str(value)

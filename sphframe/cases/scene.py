@@ -1,0 +1,78 @@
+"""Cases: the scene that a case draws: walls, fluid, bodies, probes, gauges and diagnostics."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from sphframe.geometry import Region, Wall
+from sphframe.interfaces import Fields, RigidBody
+
+__all__ = ["Diagnostic", "Gauge", "Probe", "Scene"]
+
+Array = NDArray[np.float64]
+
+
+class Probe(BaseModel):
+    """A pressure sensor: a point, or a disc of ``radius`` whose pressure is averaged along its ``tangent``."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    name: str = Field(min_length=1, max_length=64)
+    position: tuple[float, ...] = Field(min_length=2, max_length=3)
+    radius: Annotated[float, Field(ge=0)] = 0.0
+    tangent: Annotated[tuple[float, ...], Field(min_length=2, max_length=3)] | None = None
+    """direction along the wall, needed for a disc"""
+
+    @model_validator(mode="after")
+    def _disc_has_a_direction(self) -> "Probe":
+        if self.radius > 0 and self.tangent is None:
+            raise ValueError("a probe with a radius is a disc: give its tangent, a vector along the wall")
+        if self.tangent is not None and not any(self.tangent):
+            raise ValueError("tangent is the zero vector: give a vector along the wall, such as [0, 1]")
+        return self
+
+
+class Gauge(BaseModel):
+    """A free-surface elevation gauge at the horizontal position ``position`` (x in 2-D; x, y in 3-D)."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    name: str = Field(min_length=1, max_length=64)
+    position: tuple[float, ...] = Field(min_length=1, max_length=2)
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """A number computed from the fluid whenever the probes are sampled.
+
+    With a ``body``, the function sees the fluid's positions in the frame in which that body was drawn.
+    """
+
+    name: str
+    unit: str
+    long_name: str
+    function: Callable[[Fields], float]
+    body: str | None = None
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What a case puts into the world, in SI units; gravity points along the last axis, downwards."""
+
+    walls: tuple[Wall, ...]
+    fluid: tuple[Region, ...]
+    depth: float
+    """still water depth H: the scale of pressure (rho g H), time (sqrt(H/g)) and of the default sound speed"""
+    domain: tuple[tuple[float, ...], tuple[float, ...]]
+    """lower and upper corner of the box that no particle may leave"""
+    probes: tuple[Probe, ...] = ()
+    gauges: tuple[Gauge, ...] = ()
+    bodies: Mapping[str, RigidBody] = field(default_factory=dict)
+    """the bodies that carry walls, by the name that the walls refer to"""
+    initial_pressure: Callable[[Array], Array] | None = None
+    """p(position (n, dim)) -> (n,), Pa; None is the compressible rest state below the still water level"""
+    diagnostics: tuple[Diagnostic, ...] = ()
