@@ -1,9 +1,10 @@
 """Geometry: walls -> fluid lattice, ghost particles, mirror points."""
 
 from sphframe.geometry.frames import directions_to_world, to_body_frame, to_world
+from sphframe.geometry.ghosts import GhostPoints, wall_ghosts
 from sphframe.geometry.panels import Panels, wall_panels
 from sphframe.geometry.shapes import BoxRegion, PolygonRegion, Region, lattice, lattice_cell
-from sphframe.geometry.walls import BoxWall, GhostPoints, PolygonWall, Wall, wall_ghosts
+from sphframe.geometry.walls import BoxWall, PolygonWall, Wall
 
 __all__ = [
     "BoxRegion",

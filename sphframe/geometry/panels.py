@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sphframe.geometry.walls import BoxWall, PolygonWall
+from sphframe.geometry.shapes import grid
+from sphframe.geometry.walls import BoxWall, PolygonWall, Wall
 
 __all__ = ["Panels", "wall_panels"]
 
@@ -22,7 +23,7 @@ class Panels:
     wall: NDArray[np.int64]
 
 
-def wall_panels(walls: tuple[PolygonWall | BoxWall, ...], spacing: float) -> Panels:
+def wall_panels(walls: tuple[Wall, ...], spacing: float) -> Panels:
     """Cut all ``walls`` into panels of about ``spacing``."""
     cut = [_polygon(wall, spacing) if isinstance(wall, PolygonWall) else _box(wall, spacing) for wall in walls]
     owners = [np.full(len(centre), index) for index, (centre, _) in enumerate(cut)]
@@ -49,7 +50,7 @@ def _box(wall: BoxWall, spacing: float) -> tuple[Array, Array]:
         if sign + "xyz"[k] in wall.open_faces:
             continue
         axes = [np.array([bound[k]]) if m == k else middles[m] for m in range(wall.dimension)]
-        centre = np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
+        centre = grid(axes)
         area = np.zeros_like(centre)
         area[:, k] = np.prod(np.delete(steps, k)) * (1.0 if sign == "+" else -1.0)
         centres.append(centre)

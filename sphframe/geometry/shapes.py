@@ -1,12 +1,13 @@
 """Geometry: regions that are filled with fluid, on a square or cubic lattice."""
 
+from collections.abc import Sequence
 from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-__all__ = ["BoxRegion", "PolygonRegion", "Region", "inside_polygon", "lattice", "lattice_cell"]
+__all__ = ["BoxRegion", "PolygonRegion", "Region", "check_box", "grid", "lattice", "lattice_cell"]
 
 Array = NDArray[np.float64]
 
@@ -29,10 +30,6 @@ class PolygonRegion(BaseModel):
         """Upper corner of the bounding box, m."""
         return np.asarray(np.max(self.points, axis=0))
 
-    def contains(self, position: Array) -> NDArray[np.bool_]:
-        """Whether each ``position`` (n, 2) lies inside."""
-        return inside_polygon(position, np.array(self.points))
-
 
 class BoxRegion(BaseModel):
     """A rectangle (2-D) or box (3-D) between two corners, m."""
@@ -48,10 +45,6 @@ class BoxRegion(BaseModel):
         check_box(self.lower, self.upper)
         return self
 
-    def contains(self, position: Array) -> NDArray[np.bool_]:
-        """Whether each ``position`` (n, dim) lies inside."""
-        return np.asarray(np.all((position >= self.lower) & (position <= self.upper), axis=1))
-
 
 Region = Annotated[PolygonRegion | BoxRegion, Field(discriminator="shape")]
 
@@ -65,19 +58,12 @@ def check_box(lower: tuple[float, ...], upper: tuple[float, ...]) -> None:
         )
 
 
-def inside_polygon(position: Array, corners: Array) -> NDArray[np.bool_]:
-    """Whether each ``position`` (n, 2) lies inside the polygon ``corners`` (m, 2): crossing number."""
-    x, y = position[:, 0], position[:, 1]
-    inside = np.zeros(len(position), dtype=np.bool_)
-    for (x1, y1), (x2, y2) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        if y1 == y2:
-            continue
-        crosses = (y1 > y) != (y2 > y)
-        inside ^= crosses & (x < x1 + (y - y1) * (x2 - x1) / (y2 - y1))
-    return inside
+def grid(axes: Sequence[Array]) -> Array:
+    """Return the points (n, dim) of the grid whose coordinates along each axis are ``axes``; the last runs fastest."""
+    return np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
 
 
-def lattice(region: PolygonRegion | BoxRegion, spacing: float) -> Array:
+def lattice(region: Region, spacing: float) -> Array:
     """Positions (n, dim) of the centres of the :func:`lattice_cell` cells that fill ``region``.
 
     Cells are counted from the region's lower corner, so the first particle lies half a cell from a wall there. A box
@@ -89,7 +75,7 @@ def lattice(region: PolygonRegion | BoxRegion, spacing: float) -> Array:
     counts = np.maximum(np.rint((upper - lower) / cell).astype(int), 1)
     axes = [low + (np.arange(count) + 0.5) * edge for low, count, edge in zip(lower, counts, cell, strict=True)]
     if isinstance(region, BoxRegion):
-        return np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
+        return grid(axes)
     rows = [np.empty((0, 2))]
     for y in axes[1]:
         crossings = _crossings(np.array(region.points), y)
@@ -109,7 +95,7 @@ def _crossings(corners: Array, y: float) -> list[float]:
     return sorted(crossings)
 
 
-def lattice_cell(region: PolygonRegion | BoxRegion, spacing: float) -> Array:
+def lattice_cell(region: Region, spacing: float) -> Array:
     """Edges (dim,) of a lattice cell, m: ``spacing``, or in a box the nearest length of which a whole number fits."""
     extent = np.asarray(region.upper, dtype=np.float64) - np.asarray(region.lower, dtype=np.float64)
     if isinstance(region, BoxRegion):

@@ -1,45 +1,21 @@
-"""Geometry: walls, and the fixed ghost particles and mirror points that they need.
-
-A ghost particle at x_G outside the fluid belongs to the nearest point c of its wall. Its mirror point is
-x_M = 2 c - x_G, inside the fluid, and its reflection matrix S turns the velocity of the fluid relative to the wall at
-the mirror point into that of the ghost for free slip: S = 1 - 2 n n^T beside a face; the product of the faces'
-reflections where c lies on an edge or corner, which for two faces of a plane is the point reflection S = -1.
-
-Source: S. Marrone et al. (2011), doi:10.1016/j.cma.2010.12.016; X. Huang et al. (2019), doi:10.3390/w11051110,
-section 2.2.
-"""
+"""Geometry: walls as polygons and boxes: their nearest points, and where ghosts may stand behind them."""
 
 import itertools
 import math
-from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, model_validator
-from scipy.spatial import cKDTree
 
-from sphframe.geometry.shapes import check_box
+from sphframe.geometry.shapes import check_box, grid
 
-__all__ = ["BoxWall", "GhostPoints", "PolygonWall", "Wall", "wall_ghosts"]
+__all__ = ["TOLERANCE", "BoxWall", "PolygonWall", "Wall"]
 
 Array = NDArray[np.float64]
 
-_TOLERANCE = 1e-9
-
-
-@dataclass(frozen=True)
-class GhostPoints:
-    """Fixed ghost particles, in m, as drawn (before any body moves).
-
-    ``position`` (g, dim), ``mirror`` (g, dim), ``reflection`` (g, dim, dim) for free slip, ``wall`` (g,) index of the
-    wall that each belongs to.
-    """
-
-    position: Array
-    mirror: Array
-    reflection: Array
-    wall: NDArray[np.int64]
+TOLERANCE = 1e-9
+"""share of a length below which two points are taken to be equal"""
 
 
 class PolygonWall(BaseModel):
@@ -82,8 +58,8 @@ class PolygonWall(BaseModel):
         points = np.array(self.points, dtype=np.float64)
         return [np.vstack([points, points[:1]]) if self.closed else points]
 
-    def candidates(self, spacing: float, layers: int) -> tuple[Array, Array]:
-        """Candidate ghost positions and the depth of each behind the wall."""
+    def candidates(self, spacing: float, layers: int) -> Array:
+        """Return the positions (k, dim) in m where ghosts may stand, in ``layers`` of one ``spacing`` (m) each."""
         start, end = self.segments()
         tangent = (end - start) / np.linalg.norm(end - start, axis=1, keepdims=True)
         normal = np.stack([tangent[:, 1], -tangent[:, 0]], axis=1)
@@ -97,9 +73,7 @@ class PolygonWall(BaseModel):
         for i in range(last):
             k = (i + 1) % len(start)
             found.append(_corner_ghosts(start[k], tangent[i], normal[i], tangent[k], normal[k], depths))
-        position = np.vstack(found)
-        foot, _ = self.nearest(position)
-        return position, np.linalg.norm(position - foot, axis=1)
+        return np.vstack(found)
 
     def nearest(self, position: Array) -> tuple[Array, Array]:
         """Nearest wall points (n, 2) to ``position`` (n, 2) and the free-slip reflection matrices (n, 2, 2)."""
@@ -112,10 +86,10 @@ class PolygonWall(BaseModel):
             t = np.clip((position - a) @ edge / (edge @ edge), 0.0, 1.0)
             point = a + t[:, None] * edge
             distance = np.linalg.norm(position - point, axis=1)
-            closer = distance < best - _TOLERANCE * np.linalg.norm(edge)
+            closer = distance < best - TOLERANCE * np.linalg.norm(edge)
             best[closer] = distance[closer]
             foot[closer] = point[closer]
-            beyond = np.abs((position - point) @ edge) > _TOLERANCE * (edge @ edge)
+            beyond = np.abs((position - point) @ edge) > TOLERANCE * (edge @ edge)
             at_corner[closer] = beyond[closer]
         return foot, _reflections(position - foot, at_corner)
 
@@ -137,7 +111,7 @@ class PolygonWall(BaseModel):
             length = float(np.linalg.norm(edge))
             across = (position[:, 0] - a[0]) * edge[1] - (position[:, 1] - a[1]) * edge[0]
             sine = across / (length * np.maximum(distance, 1e-300))
-            tie = np.abs(distance - best) <= _TOLERANCE * length
+            tie = np.abs(distance - best) <= TOLERANCE * length
             closer = (distance < best) & ~tie
             # at a corner two segments are equally near: the one seen more squarely decides
             take = closer | (tie & (np.abs(sine) > np.abs(side)))
@@ -145,7 +119,7 @@ class PolygonWall(BaseModel):
             open_end = ((k == 0) & (raw < 0.0)) | ((k == len(start) - 1) & (raw > 1.0))
             free_ends[take] = (open_end & (not self.closed))[take]
             best = np.minimum(best, distance)
-        on_wall = best <= _TOLERANCE * np.ptp(np.vstack([start, end]))
+        on_wall = best <= TOLERANCE * np.ptp(np.vstack([start, end]))
         return np.asarray((side > 0.0) & ~free_ends & ~on_wall)
 
 
@@ -197,8 +171,8 @@ class BoxWall(BaseModel):
                 high["xyz".index(axis)] = np.inf
         return low, high
 
-    def candidates(self, spacing: float, layers: int) -> tuple[Array, Array]:
-        """Candidate ghost positions and the depth of each behind the wall."""
+    def candidates(self, spacing: float, layers: int) -> Array:
+        """Return the positions (k, dim) in m where ghosts may stand, in ``layers`` of one ``spacing`` (m) each."""
         low, high = np.array(self.lower), np.array(self.upper)
         reach_low, reach_high = self._reach()
         counts = np.maximum(np.rint((high - low) / spacing).astype(int), 1)
@@ -208,11 +182,8 @@ class BoxWall(BaseModel):
             before = 0 if np.isinf(reach_low[k]) else layers
             after = 0 if np.isinf(reach_high[k]) else layers
             axes.append(low[k] + (np.arange(-before, counts[k] + after) + 0.5) * step)
-        position = np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
-        outside = np.any((position < reach_low) | (position > reach_high), axis=1)
-        position = position[outside]
-        foot, _ = self.nearest(position)
-        return position, np.linalg.norm(position - foot, axis=1)
+        position = grid(axes)
+        return position[np.any((position < reach_low) | (position > reach_high), axis=1)]
 
     def nearest(self, position: Array) -> tuple[Array, Array]:
         """Nearest wall points (n, dim) to outside ``position`` (n, dim) and the free-slip reflection matrices."""
@@ -227,42 +198,17 @@ class BoxWall(BaseModel):
     def is_behind(self, position: Array) -> NDArray[np.bool_]:
         """Whether each ``position`` (n, dim) lies behind a closed face (outside the fluid)."""
         low, high = self._reach()
-        on_wall = _TOLERANCE * float(np.max(np.subtract(self.upper, self.lower)))
+        on_wall = TOLERANCE * float(np.max(np.subtract(self.upper, self.lower)))
         return np.asarray(np.any((position < low - on_wall) | (position > high + on_wall), axis=1))
 
 
 Wall = Annotated[PolygonWall | BoxWall, Field(discriminator="shape")]
 
 
-def wall_ghosts(walls: tuple[PolygonWall | BoxWall, ...], spacing: float, layers: int) -> GhostPoints:
-    """Place the ghosts of all ``walls``: layers at (k + 1/2) spacings behind each, corners filled.
-
-    A candidate that another face of the same wall is nearer to, that is not behind its wall, or that coincides with
-    an earlier ghost (closer than half a spacing) is left out.
-    """
-    dimension = walls[0].dimension
-    positions, mirrors, reflections, owners = [], [], [], []
-    for index, wall in enumerate(walls):
-        position, _ = wall.candidates(spacing, layers)
-        foot, reflection = wall.nearest(position)
-        depth = np.linalg.norm(position - foot, axis=1)
-        reach = math.sqrt(dimension) * layers * spacing
-        keep = wall.is_behind(position) & (depth > 0.2 * spacing) & (depth < reach)
-        positions.append(position[keep])
-        mirrors.append(2.0 * foot[keep] - position[keep])
-        reflections.append(reflection[keep])
-        owners.append(np.full(int(keep.sum()), index))
-    position = np.vstack(positions)
-    keep = _without_duplicates(position, 0.5 * spacing)
-    return GhostPoints(
-        position[keep], np.vstack(mirrors)[keep], np.vstack(reflections)[keep], np.concatenate(owners)[keep]
-    )
-
-
 def _corner_ghosts(corner: Array, t1: Array, n1: Array, t2: Array, n2: Array, depths: Array) -> Array:
     """Ghosts in the wedge behind a corner where the polyline turns left (the fluid's angle is below 180 degrees)."""
     turn = math.atan2(t1[0] * t2[1] - t1[1] * t2[0], float(t1 @ t2))
-    if turn <= _TOLERANCE:
+    if turn <= TOLERANCE:
         return np.empty((0, 2))
     if abs(turn - math.pi / 2) < 1e-6:  # a right angle: carry on the lattice of both faces
         a, b = np.meshgrid(depths, depths, indexing="ij")
@@ -287,11 +233,3 @@ def _reflections(offset: Array, at_corner: NDArray[np.bool_]) -> Array:
     identity = np.eye(2)
     plane = identity - 2.0 * normal[:, :, None] * normal[:, None, :]
     return np.where(at_corner[:, None, None], -identity, plane)
-
-
-def _without_duplicates(position: Array, closest: float) -> NDArray[np.bool_]:
-    keep = np.ones(len(position), dtype=np.bool_)
-    for i, j in sorted(cKDTree(position).query_pairs(closest * (1.0 - _TOLERANCE))):
-        if keep[i]:
-            keep[j] = False
-    return keep

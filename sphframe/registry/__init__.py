@@ -11,23 +11,13 @@ upgrade.
 """
 
 from sphframe.registry.components import check, create, load
-from sphframe.registry.entries import (
-    API_VERSION,
-    COMPONENT_KINDS,
-    KINDS,
-    OLDEST_API_VERSION,
-    Entry,
-    available,
-    clear,
-    find,
-    is_address,
-)
+from sphframe.registry.entries import Entry, available, clear, find, is_address
+from sphframe.registry.kinds import API_VERSION, COMPONENT_KINDS, KINDS
 
 __all__ = [
     "API_VERSION",
     "COMPONENT_KINDS",
     "KINDS",
-    "OLDEST_API_VERSION",
     "Entry",
     "available",
     "check",

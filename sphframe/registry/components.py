@@ -7,15 +7,8 @@ from operator import attrgetter
 from typing import Any
 
 from sphframe.errors import ApiVersionError, BrokenPluginError, PluginError
-from sphframe.registry.entries import (
-    API_VERSION,
-    OLDEST_API_VERSION,
-    Entry,
-    available,
-    find,
-    is_address,
-    remember,
-)
+from sphframe.registry.entries import Entry, available, find, is_address, remember
+from sphframe.registry.kinds import API_VERSION, OLDEST_API_VERSION
 
 __all__ = ["check", "create", "load"]
 

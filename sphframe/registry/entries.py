@@ -9,57 +9,11 @@ from functools import cache
 from importlib import metadata
 
 from sphframe.errors import ClashingPluginError, InputError, PluginWarning, UnknownComponentError
+from sphframe.registry.kinds import DISTRIBUTIONS, KINDS, LABELS
 from sphframe.registry.nearest import did_you_mean, nearest
 from sphframe.representation import html_table
 
-__all__ = [
-    "API_VERSION",
-    "COMPONENT_KINDS",
-    "KINDS",
-    "OLDEST_API_VERSION",
-    "Entry",
-    "Listing",
-    "available",
-    "clear",
-    "find",
-    "is_address",
-]
-
-API_VERSION = (1, 0)
-"""version of the plugin interface that this sphframe offers"""
-OLDEST_API_VERSION = (1, 0)
-"""oldest version of the plugin interface that this sphframe still serves"""
-
-_LABELS = {
-    "interpolators": "interpolator",
-    "kernels": "kernel",
-    "equations_of_state": "equation of state",
-    "integrators": "integrator",
-    "rigid_bodies": "rigid body",
-    "cases": "case",
-    "hooks": "hook",
-}
-KINDS = tuple(_LABELS)
-"""the kinds of components; kind K is entry-point group ``sphframe.K``"""
-COMPONENT_KINDS = {
-    "interpolator": "interpolators",
-    "kernel": "kernels",
-    "equation_of_state": "equations_of_state",
-    "integrator": "integrators",
-}
-"""the parameters of a case that choose a component by name, with the kind of that component"""
-
-_DISTRIBUTIONS = {
-    ("interpolators", "improved-shepard"): "sphframe-shepard",
-    ("interpolators", "shepard"): "sphframe-shepard",
-    ("interpolators", "normalized"): "sphframe-normalized",
-    ("interpolators", "sfdi"): "sphframe-sfdi",
-    ("interpolators", "mls-linear"): "sphframe-mls",
-    ("interpolators", "mls-quadratic"): "sphframe-mls",
-    ("interpolators", "mdbc"): "sphframe-mdbc",
-    ("interpolators", "adami"): "sphframe-adami",
-}
-"""distributions of this project that are installed apart from it: what to install for a name that is missing"""
+__all__ = ["Entry", "Listing", "available", "clear", "find", "is_address", "remember"]
 
 _ADDRESS = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
 
@@ -87,7 +41,7 @@ class Entry:
     @property
     def title(self) -> str:
         """What it is, in words."""
-        return f"{_LABELS[self.kind]} {self.name!r}"
+        return f"{LABELS[self.kind]} {self.name!r}"
 
     @property
     def label(self) -> str:
@@ -150,7 +104,7 @@ def find(kind: str, name: str) -> Entry:
         raise UnknownComponentError(_unknown(kind, name))
     if len(claims) > 1:
         raise ClashingPluginError(
-            f"{_LABELS[kind]} {name!r} is claimed by {' and by '.join(_origin(claim) for claim in claims)};"
+            f"{LABELS[kind]} {name!r} is claimed by {' and by '.join(_origin(claim) for claim in claims)};"
             f" uninstall all but one, or give the address of the one you mean instead of its name:"
             f" {' or '.join(repr(claim.value) for claim in claims)}"
         )
@@ -243,16 +197,16 @@ def _clash(entry: Entry, entries: list[Entry]) -> str:
 def _unknown(kind: str, name: str) -> str:
     entries = available(kind)
     names = {entry.name for entry in entries}
-    offered = {known for of_kind, known in _DISTRIBUTIONS if of_kind == kind}
+    offered = {known for of_kind, known in DISTRIBUTIONS if of_kind == kind}
     sound = sorted(entry.name for entry in entries if entry.error is None)
     broken = [f"{entry.name} ({_origin(entry)}: {entry.error})" for entry in entries if entry.error is not None]
 
-    lines = [f"there is no {_LABELS[kind]} {name!r}"]
+    lines = [f"there is no {LABELS[kind]} {name!r}"]
     match = name if name in offered else nearest(name, names | offered)
     if match and match != name:
         lines[0] += f"; did you mean {match!r}?"
     if match and match not in names:
-        install = f"python -m pip install {_DISTRIBUTIONS[kind, match]}"
+        install = f"python -m pip install {DISTRIBUTIONS[kind, match]}"
         lines.append(f"{match!r} is not installed; to get it: {install}")
     lines += [f"{name!r} is a name among {other}" for other in KINDS if any(e.name == name for e in _declared()[other])]
     lines.append(f"installed: {', '.join(sound) or 'none'}")

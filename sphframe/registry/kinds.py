@@ -1,0 +1,40 @@
+"""Registry: the kinds of components, and which version of the plugin interface they are written for."""
+
+__all__ = ["API_VERSION", "COMPONENT_KINDS", "DISTRIBUTIONS", "KINDS", "LABELS", "OLDEST_API_VERSION"]
+
+API_VERSION = (1, 0)
+"""version of the plugin interface that this sphframe offers"""
+OLDEST_API_VERSION = (1, 0)
+"""oldest version of the plugin interface that this sphframe still serves"""
+
+LABELS = {
+    "interpolators": "interpolator",
+    "kernels": "kernel",
+    "equations_of_state": "equation of state",
+    "integrators": "integrator",
+    "rigid_bodies": "rigid body",
+    "cases": "case",
+    "hooks": "hook",
+}
+"""the kinds of components, each with its name in the singular for messages"""
+KINDS = tuple(LABELS)
+"""the kinds of components; kind K is entry-point group ``sphframe.K``"""
+COMPONENT_KINDS = {
+    "interpolator": "interpolators",
+    "kernel": "kernels",
+    "equation_of_state": "equations_of_state",
+    "integrator": "integrators",
+}
+"""the parameters of a case that choose a component by name, with the kind of that component"""
+
+DISTRIBUTIONS = {
+    ("interpolators", "improved-shepard"): "sphframe-shepard",
+    ("interpolators", "shepard"): "sphframe-shepard",
+    ("interpolators", "normalized"): "sphframe-normalized",
+    ("interpolators", "sfdi"): "sphframe-sfdi",
+    ("interpolators", "mls-linear"): "sphframe-mls",
+    ("interpolators", "mls-quadratic"): "sphframe-mls",
+    ("interpolators", "mdbc"): "sphframe-mdbc",
+    ("interpolators", "adami"): "sphframe-adami",
+}
+"""distributions of this project that are installed apart from it: what to install for a name that is missing"""
