@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from sphframe.boundary.operator import ParticleCloud
     from sphframe.cases import Case, load_case
+    from sphframe.compiled import fast_exp, local_array
     from sphframe.errors import InputError, OutputError, PluginError, SimulationError, SphframeError
     from sphframe.hooks import hookimpl
     from sphframe.interfaces import (
@@ -29,8 +30,6 @@ if TYPE_CHECKING:
         Traits,
         WeightsFunction,
     )
-    from sphframe.interfaces.scratch import local_array
-    from sphframe.kernels import fast_exp
     from sphframe.output import open_dataset
     from sphframe.registry import available, create
     from sphframe.simulation.run import Run, resume, run
@@ -41,6 +40,7 @@ __version__ = "0.1.0"
 _HOMES = {
     "sphframe.boundary.operator": ["ParticleCloud"],
     "sphframe.cases": ["Case", "load_case"],
+    "sphframe.compiled": ["fast_exp", "local_array"],
     "sphframe.errors": ["InputError", "OutputError", "PluginError", "SimulationError", "SphframeError"],
     "sphframe.hooks": ["hookimpl"],
     "sphframe.interfaces": [
@@ -61,8 +61,6 @@ _HOMES = {
         "Traits",
         "WeightsFunction",
     ],
-    "sphframe.interfaces.scratch": ["local_array"],
-    "sphframe.kernels": ["fast_exp"],
     "sphframe.output": ["open_dataset"],
     "sphframe.registry": ["available", "create"],
     "sphframe.simulation": ["Run", "Simulation", "resume", "run"],

@@ -7,8 +7,7 @@ import numba
 import numpy as np
 
 from sphframe.benchmark.timing import Spread
-from sphframe.interfaces.arithmetic import fma
-from sphframe.interfaces.scratch import local_array
+from sphframe.compiled import fma, local_array
 
 __all__ = ["Peak", "measure_peak"]
 

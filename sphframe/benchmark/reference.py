@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from sphframe.kernels.fast_exp import fast_exp
+from sphframe.compiled import fast_exp
 from sphframe.simulation import Simulation
 
 __all__ = ["BareLoops"]

@@ -10,6 +10,7 @@ from sphframe.boundary.conjugate import make_conjugate
 from sphframe.boundary.corners import Corners
 from sphframe.boundary.ghosts import fill_ghosts
 from sphframe.boundary.movement import move_ghosts
+from sphframe.compiled import compile_part, specialise
 from sphframe.geometry import BoxWall, PolygonWall, wall_ghosts
 from sphframe.interfaces import (
     BoundaryInterpolator,
@@ -21,7 +22,6 @@ from sphframe.interfaces import (
     Status,
 )
 from sphframe.neighbours import NeighbourLists
-from sphframe.specialise import compile_part, specialise
 
 __all__ = ["Boundary"]
 

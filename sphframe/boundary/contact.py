@@ -16,8 +16,7 @@ import math
 
 import numba
 
-from sphframe.interfaces.scratch import local_array
-from sphframe.physics import LANES
+from sphframe.compiled import LANES, local_array
 
 __all__ = ["put_back"]
 

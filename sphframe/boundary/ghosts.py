@@ -33,7 +33,7 @@ from typing import Any
 
 import numba
 
-from sphframe.interfaces.scratch import local_array
+from sphframe.compiled import local_array
 from sphframe.interfaces.traits import DRY, OK
 
 __all__ = ["fill_ghosts"]

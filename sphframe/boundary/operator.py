@@ -14,11 +14,11 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 from scipy.spatial import cKDTree
 
+from sphframe.compiled import compile_part, specialise
 from sphframe.errors import InputError
 from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint, Kernel
 from sphframe.interfaces.traits import DRY, OK
 from sphframe.registry import create
-from sphframe.specialise import compile_part, specialise
 
 __all__ = ["ParticleCloud", "compiled_kernel", "operator", "weights_loop"]
 

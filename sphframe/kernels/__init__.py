@@ -5,9 +5,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from sphframe.interfaces import Kernel
 from sphframe.interfaces.kernel import ScalarFunction
-from sphframe.kernels.fast_exp import fast_exp
 
-__all__ = ["fast_exp", "kernel_gradient_factor", "kernel_value"]
+__all__ = ["kernel_gradient_factor", "kernel_value"]
 
 Array = NDArray[np.float64]
 

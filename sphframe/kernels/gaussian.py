@@ -4,9 +4,9 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+from sphframe.compiled import fast_exp
 from sphframe.interfaces import Kernel
 from sphframe.interfaces.kernel import ScalarFunction
-from sphframe.kernels.fast_exp import fast_exp
 
 __all__ = ["RenormalisedGaussian"]
 

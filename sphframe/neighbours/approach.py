@@ -8,7 +8,7 @@ import math
 import numba
 import numpy as np
 
-from sphframe.interfaces.scratch import local_array
+from sphframe.compiled import local_array
 
 __all__ = ["relative_displacement"]
 

@@ -1,9 +1,8 @@
 """Physics: one term of the equations per file."""
 
-from sphframe.physics.lanes import LANES
 from sphframe.physics.pressure import invert_pressure, update_pressure
 from sphframe.physics.rates import fluid_sums
 from sphframe.physics.sampling import sample_points
 from sphframe.physics.wall_force import wall_reaction
 
-__all__ = ["LANES", "fluid_sums", "invert_pressure", "sample_points", "update_pressure", "wall_reaction"]
+__all__ = ["fluid_sums", "invert_pressure", "sample_points", "update_pressure", "wall_reaction"]

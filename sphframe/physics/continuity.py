@@ -15,7 +15,7 @@ Source: X. Huang et al. (2019), doi:10.3390/w11051110, Eq. 5; S. Marrone et al. 
 
 import numba
 
-from sphframe.interfaces.arithmetic import fma
+from sphframe.compiled import fma
 
 __all__ = ["diffusive_flux"]
 

@@ -8,11 +8,9 @@ from typing import Any
 
 import numba
 
-from sphframe.interfaces.arithmetic import fma
-from sphframe.interfaces.scratch import local_array
+from sphframe.compiled import LANES, fma, local_array
 from sphframe.physics.continuity import diffusive_flux
 from sphframe.physics.density_gradient import renormalised_2d, renormalised_3d
-from sphframe.physics.lanes import LANES
 from sphframe.physics.momentum import pair_stress
 
 __all__ = ["fluid_sums"]

@@ -15,7 +15,7 @@ from typing import Any
 
 import numba
 
-from sphframe.physics.lanes import LANES
+from sphframe.compiled import LANES
 from sphframe.physics.momentum import pair_stress
 
 __all__ = ["wall_reaction"]

@@ -17,6 +17,7 @@ from typing import Any, ClassVar
 
 from sphframe.boundary.operator import compiled_kernel
 from sphframe.cases import Case, CaseWarning
+from sphframe.compiled import fingerprint
 from sphframe.errors import InputError, OutputError, SimulationError
 from sphframe.geometry import lattice
 from sphframe.hooks import hookimpl
@@ -27,7 +28,6 @@ from sphframe.output.provenance import distributions, registered_name
 from sphframe.output.writer import checkpoint_path
 from sphframe.registry import load
 from sphframe.simulation.run import resume, run
-from sphframe.specialise import fingerprint
 
 __all__ = ["UNFINISHED", "RunTask", "Task", "Tell", "lock_of", "made_with", "slug", "wall_boundary", "work"]
 

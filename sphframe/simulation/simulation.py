@@ -14,19 +14,19 @@ from numpy.typing import NDArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.operator import compiled_kernel
 from sphframe.cases import Case, Fields, Scene
+from sphframe.compiled import LANES, compile_part, specialise
 from sphframe.errors import InputError, SimulationError
 from sphframe.geometry import lattice, lattice_cell, wall_panels
 from sphframe.interfaces import EquationOfState, Kernel, Motion, Status
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
-from sphframe.physics import LANES, invert_pressure, sample_points
+from sphframe.physics import invert_pressure, sample_points
 from sphframe.registry import COMPONENT_KINDS
 from sphframe.simulation.guards import check_promises, check_time_step, naming_component, naming_hook, watch
 from sphframe.simulation.interruption import Interruption, deferred_interruption
 from sphframe.simulation.probes import Gauges, PressureProbes
 from sphframe.simulation.rest_state import rest_pressure
 from sphframe.simulation.system import FluidSystem, Parameters
-from sphframe.specialise import compile_part, specialise
 
 __all__ = ["Simulation"]
 

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.contact import put_back
+from sphframe.compiled import compile_part, specialise
 from sphframe.errors import SimulationError
 from sphframe.interfaces import CompiledKernel, EquationOfState, Motion, RigidBody, System
 from sphframe.neighbours import NeighbourLists, put_in_order
 from sphframe.particles import Columns
 from sphframe.physics import fluid_sums, update_pressure, wall_reaction
-from sphframe.specialise import compile_part, specialise
 
 __all__ = ["FluidSystem", "Parameters"]
 

@@ -5,8 +5,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from sphframe.compiled import compile_part
 from sphframe.interfaces import Kernel
-from sphframe.specialise import compile_part
 from sphframe.testing.evaluation import title
 from sphframe.testing.proof import require
 

@@ -8,13 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
+from sphframe.compiled import compile_part
 from sphframe.interfaces import Kernel
 from sphframe.kernels import kernel_gradient_factor, kernel_value
-from sphframe.kernels.fast_exp import fast_exp
 from sphframe.kernels.gaussian import RenormalisedGaussian
 from sphframe.kernels.spline import CubicSpline, QuinticSpline
 from sphframe.kernels.wendland import WendlandC2, WendlandC4
-from sphframe.specialise import compile_part
 
 KERNELS = [RenormalisedGaussian(), WendlandC2(), WendlandC4(), CubicSpline(), QuinticSpline()]
 every_kernel = pytest.mark.parametrize("kernel", KERNELS, ids=lambda kernel: type(kernel).__name__)
@@ -84,14 +83,3 @@ def test_gaussian_constants_of_the_literature() -> None:
 def test_arrays_keep_their_shape() -> None:
     assert kernel_value(WendlandC2(), np.zeros((2, 3)), 1.0, 2).shape == (2, 3)
     assert kernel_value(WendlandC2(), 0.5, 1.0, 2).shape == ()
-
-
-@given(st.floats(-9.0, 0.0))
-def test_fast_exp_is_exp(x: float) -> None:
-    assert abs(fast_exp(x) / math.exp(x) - 1.0) < 2e-14
-
-
-def test_fast_exp_is_the_same_in_plain_python() -> None:
-    plain = getattr(fast_exp, "py_func", fast_exp)
-    for x in np.linspace(-9.0, 0.0, 101):
-        assert fast_exp(x) == pytest.approx(plain(float(x)), rel=1e-14)

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from sphframe.boundary.operator import compiled_kernel
+from sphframe.compiled import LANES, specialise
 from sphframe.interfaces import CompiledKernel
 from sphframe.kernels.gaussian import RenormalisedGaussian
 from sphframe.kernels.wendland import WendlandC2
 from sphframe.particles import Columns
-from sphframe.physics import LANES, fluid_sums
-from sphframe.specialise import specialise
+from sphframe.physics import fluid_sums
 
 KERNELS = {"gaussian": RenormalisedGaussian(), "wendland-c2": WendlandC2()}
 

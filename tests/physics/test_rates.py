@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from sphframe.compiled import specialise
 from sphframe.particles import Columns
 from sphframe.physics import wall_reaction
-from sphframe.specialise import specialise
 
 from .cloud import make_cloud
 

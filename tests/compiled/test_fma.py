@@ -3,7 +3,7 @@
 import numba
 import pytest
 
-from sphframe.interfaces.arithmetic import fma
+from sphframe.compiled import fma
 
 compiled = numba.njit(lambda a, b, c: fma(a, b, c))
 

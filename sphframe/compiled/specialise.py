@@ -1,4 +1,4 @@
-"""Specialise: joins jitted parts (kernel, equation of state, method) into one compiled loop, cached on disk.
+"""Compiled: joins jitted parts (kernel, equation of state, method) into one compiled loop, cached on disk.
 
 Numba caches a function under its qualified name and the time stamp of its file. A function that receives another
 as an argument or in a closure is never found again in that cache, and a change in a called function goes unnoticed.

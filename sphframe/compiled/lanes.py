@@ -1,4 +1,4 @@
-"""Physics: how many particles a loop takes at once."""
+"""Compiled: how many particles a loop takes at once."""
 
 __all__ = ["LANES"]
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sphframe.specialise import compile_part, fingerprint, specialise
+from sphframe.compiled import compile_part, fingerprint, specialise
 
 SCALE = 2.0
 
@@ -71,7 +71,7 @@ def test_fingerprint_sees_every_change(first, second):
 PROGRAM = """
 import numpy as np
 import module
-from sphframe.specialise import specialise
+from sphframe.compiled import specialise
 loop = specialise(module.template, {"PART": module.part}, parallel=False)
 values = np.array([3.0])
 loop(values)

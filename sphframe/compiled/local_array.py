@@ -1,4 +1,4 @@
-"""Interfaces: scratch memory for weights functions, which must not allocate."""
+"""Compiled: scratch memory for weights functions, which must not allocate."""
 
 # mypy: disable-error-code="no-untyped-call, untyped-decorator"
 

@@ -1,4 +1,4 @@
-"""Interfaces: the fused multiply-add, which compiled loops ask for by name."""
+"""Compiled: the fused multiply-add, which compiled loops ask for by name."""
 
 # mypy: disable-error-code="no-untyped-call, untyped-decorator"
 

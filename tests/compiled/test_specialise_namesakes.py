@@ -13,7 +13,7 @@ import sys
 
 import numpy as np
 
-from sphframe.specialise import specialise
+from sphframe.compiled import specialise
 
 def make(value):
     def part(x, y):  # long enough not to be inlined

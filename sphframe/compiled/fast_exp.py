@@ -1,4 +1,4 @@
-"""Kernels: an exponential made of multiplications alone, for kernels that are evaluated a hundred million times."""
+"""Compiled: an exponential made of multiplications alone, for kernels that are evaluated a hundred million times."""
 
 import math
 
@@ -6,7 +6,7 @@ import numba
 import numpy as np
 from numpy.polynomial import Chebyshev, Polynomial
 
-from sphframe.interfaces.arithmetic import fma
+from sphframe.compiled.fma import fma
 
 __all__ = ["fast_exp"]
 
