@@ -8,12 +8,9 @@ It is written under another name, brought to the disk and then renamed: whatever
 or the new one is there. The output is brought to the disk first: a checkpoint never counts a frame that is not there.
 """
 
-import contextlib
 import importlib.metadata
 import json
-import os
 import platform
-import time
 import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -23,13 +20,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sphframe.errors import InputError, OutputError
-from sphframe.hooks import hookimpl
+from sphframe.errors import InputError
 from sphframe.interfaces import CaseView, ResumableRun
+from sphframe.output.files import replaced_as_a_whole
 from sphframe.output.provenance import distributions, software
-from sphframe.output.writer import NetCDFWriter, checkpoint_path
 
-__all__ = ["Checkpoint", "CheckpointWriter", "changed_versions", "read_checkpoint"]
+__all__ = ["Checkpoint", "changed_versions", "checkpoint_path", "read_checkpoint", "write_checkpoint"]
 
 _FORMAT = 1
 _HEADER = "checkpoint.json"
@@ -48,103 +44,32 @@ class Checkpoint:
     state: Mapping[str, NDArray[Any]]
 
 
-class CheckpointWriter:
-    """A hook plugin that writes checkpoints beside the output of ``writer``.
+def checkpoint_path(output: Path) -> Path:
+    """Return the path of the checkpoint of a run whose output file is ``output``."""
+    return output.with_name(f"{output.name}.restart")
 
-    A checkpoint is also written when the run is interrupted, and removed when it is complete. None is written of a
-    state that the guards have stopped: the last good one stays.
 
-    Parameters
-    ----------
-    writer: what writes the output; it must be told of an event before this is.
-    every: wall-clock time between checkpoints, s; None for none.
-    interval: simulated time between checkpoints, s; None for none.
+def write_checkpoint(path: Path, simulation: ResumableRun, run_id: str) -> None:
+    """Write a checkpoint of the present state of ``simulation`` to ``path``.
 
     Raises
     ------
-    InputError: when an interval is not positive.
+    OSError: when it cannot be written; the previous one is intact.
     """
-
-    def __init__(self, writer: NetCDFWriter, *, every: float | None = 60.0, interval: float | None = None) -> None:
-        for name, value in (("every", every), ("interval", interval)):
-            if value is not None and not (0.0 < value < float("inf")):
-                raise InputError(f"checkpoints: {name} = {value:g} s must be a positive number of seconds")
-        self.path = checkpoint_path(writer.path)
-        self.saved_time: float | None = None
-        """simulated time of the last checkpoint written, s"""
-        self._writer = writer
-        self._every, self._interval = every, interval
-        self._written_at = time.monotonic()
-        self._due = 0.0
-
-    @hookimpl
-    def sphframe_run_started(self, simulation: ResumableRun) -> None:
-        """Start counting."""
-        self._written_at = time.monotonic()
-        self._set_due(simulation.time)
-
-    @hookimpl
-    def sphframe_step_completed(self, simulation: ResumableRun) -> None:
-        """Write a checkpoint when one is due."""
-        by_clock = self._every is not None and time.monotonic() - self._written_at >= self._every
-        if by_clock or (self._interval is not None and simulation.time >= self._due):
-            self.write(simulation)
-
-    @hookimpl
-    def sphframe_run_finished(self, simulation: ResumableRun) -> None:
-        """Remove the checkpoint: nothing is left to continue."""
-        self.path.unlink(missing_ok=True)
-
-    @hookimpl
-    def sphframe_run_failed(self, simulation: ResumableRun, error: BaseException) -> None:
-        """Write a checkpoint when the run was interrupted."""
-        if isinstance(error, KeyboardInterrupt) and simulation.between_steps and self._writer.run_id:
-            self.write(simulation)
-
-    def write(self, simulation: ResumableRun) -> None:
-        """Write a checkpoint of the present state.
-
-        Raises
-        ------
-        OutputError: when it cannot be written; the one before is intact.
-        """
-        self._writer.flush()
-        state = simulation.state()
-        arrays = {name: np.asarray(array, _TYPES[array.dtype.kind], order="C") for name, array in state.items()}
-        header = {
-            "format": _FORMAT,
-            "run_id": self._writer.run_id,
-            "time": simulation.time,
-            "samples": simulation.samples,
-            "frames": simulation.frames,
-            "versions": _versions(simulation.case),
-            "arrays": {name: [array.dtype.str, array.shape] for name, array in arrays.items()},
-        }
-        draft = self.path.with_name(f".{self.path.name}.draft")
-        try:
-            with draft.open("wb") as file:
-                with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive:
-                    archive.writestr(_HEADER, json.dumps(header))
-                    for name, array in arrays.items():
-                        archive.writestr(name, array.tobytes())
-                file.flush()
-                os.fsync(file.fileno())
-            draft.replace(self.path)
-        except OSError as error:
-            with contextlib.suppress(OSError):
-                draft.unlink(missing_ok=True)
-            raise OutputError(
-                f"cannot write the checkpoint {self.path}: {error.strerror or error}; the output and the checkpoint"
-                " before, if any, are intact. To mend it: free some space or check the folder, then"
-                f" sphframe resume {self._writer.path}"
-            ) from error
-        self.saved_time = simulation.time
-        self._written_at = time.monotonic()
-        self._set_due(simulation.time)
-
-    def _set_due(self, now: float) -> None:
-        if self._interval is not None:
-            self._due = (now // self._interval + 1.0) * self._interval
+    arrays = {name: np.asarray(a, _TYPES[a.dtype.kind], order="C") for name, a in simulation.state().items()}
+    header = {
+        "format": _FORMAT,
+        "run_id": run_id,
+        "time": simulation.time,
+        "samples": simulation.samples,
+        "frames": simulation.frames,
+        "versions": _versions(simulation.case),
+        "arrays": {name: [array.dtype.str, array.shape] for name, array in arrays.items()},
+    }
+    with replaced_as_a_whole(path) as draft, zipfile.ZipFile(draft, "w", zipfile.ZIP_STORED) as archive:
+        archive.writestr(_HEADER, json.dumps(header))
+        for name, array in arrays.items():
+            archive.writestr(name, array.tobytes())
 
 
 def read_checkpoint(path: Path) -> Checkpoint:

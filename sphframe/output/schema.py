@@ -3,12 +3,15 @@
 Writer, reader, plots and exporters take names and units from here. The file follows the CF conventions 1.11.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Final, Literal
 
-__all__ = ["CONVENTIONS", "FORMAT", "VARIABLES", "RunStatus", "Variable", "unit_of"]
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["CONVENTIONS", "FORMAT", "VARIABLES", "RunStatus", "Variable", "encode_texts", "unit_of"]
 
 CONVENTIONS = "CF-1.11"
 FORMAT: Final = "NETCDF3_64BIT_DATA"
@@ -53,6 +56,12 @@ def unit_of(variable: Variable, dimension: int) -> str:
     ('J m-1', 'J')
     """
     return f"{variable.unit} m-1" if variable.per_width and dimension == 2 else variable.unit
+
+
+def encode_texts(texts: Sequence[str], width: int) -> NDArray[np.bytes_]:
+    """Return the values of a ``text`` variable: bytes (n, width) of UTF-8, each text cut at ``width`` bytes."""
+    encoded = [text.encode()[:width].decode(errors="ignore").encode() for text in texts]
+    return np.array(encoded, dtype=f"S{width}").view("S1").reshape(len(encoded), width)
 
 
 def _text(dimensions: tuple[str, ...], long_name: str) -> Variable:

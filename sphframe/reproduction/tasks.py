@@ -23,9 +23,9 @@ from sphframe.geometry import lattice
 from sphframe.hooks import hookimpl
 from sphframe.interfaces import RunView
 from sphframe.output import open_dataset
+from sphframe.output.checkpoint import checkpoint_path
 from sphframe.output.lock import lock_file
 from sphframe.output.provenance import distributions, registered_name
-from sphframe.output.writer import checkpoint_path
 from sphframe.registry import load
 from sphframe.simulation.run import resume, run
 

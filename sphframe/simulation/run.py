@@ -13,8 +13,7 @@ from sphframe.cases import Case, load_case
 from sphframe.errors import InputError, ResumeWarning
 from sphframe.hooks import hook_manager
 from sphframe.output import CheckpointWriter, NetCDFWriter, open_dataset
-from sphframe.output.checkpoint import changed_versions, read_checkpoint
-from sphframe.output.writer import checkpoint_path
+from sphframe.output.checkpoint import changed_versions, checkpoint_path, read_checkpoint
 from sphframe.representation import html_table
 from sphframe.simulation.simulation import Simulation
 

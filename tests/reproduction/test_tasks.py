@@ -11,7 +11,7 @@ from sphframe import hookimpl, open_dataset, run
 from sphframe.cases import Custom
 from sphframe.errors import InputError
 from sphframe.geometry import BoxRegion, BoxWall
-from sphframe.output.writer import checkpoint_path
+from sphframe.output.checkpoint import checkpoint_path
 from sphframe.reproduction import tasks
 from sphframe.reproduction.measurement import CostTask
 from sphframe.reproduction.sections import SECTIONS

@@ -1,6 +1,7 @@
 """What becomes of the files when the world around a run goes wrong."""
 
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -98,10 +99,8 @@ def test_an_output_that_is_taken_away_stops_the_run(tmp_path: Path, deed: str) -
 
 
 def test_too_little_disk_is_said_before_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from sphframe.output import writer
-
-    usage = writer.shutil.disk_usage(tmp_path)
-    monkeypatch.setattr(writer.shutil, "disk_usage", lambda path: usage._replace(free=100_000))
+    usage = shutil.disk_usage(tmp_path)
+    monkeypatch.setattr(shutil, "disk_usage", lambda path: usage._replace(free=100_000))
     with pytest.raises(OutputError, match=r"would need about .* but only .* are free: choose another --output"):
         run("hydrostatic-tank", output=tmp_path / "run.nc", threads=1, **PARAMETERS)
     assert not list(tmp_path.iterdir())

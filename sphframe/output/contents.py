@@ -1,0 +1,225 @@
+"""Output: what the file of a run contains: dimensions, variables, attributes, and the values of samples and frames."""
+
+import json
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from typing import Any
+
+import netCDF4
+import numpy as np
+
+from sphframe.errors import OutputError
+from sphframe.interfaces import RunView, Status
+from sphframe.output.provenance import distributions, registered_name, software
+from sphframe.output.schema import CONVENTIONS, VARIABLES, RunStatus, Variable, encode_texts, unit_of
+from sphframe.registry import COMPONENT_KINDS
+
+__all__ = ["frame_of", "planned_size", "sample_of", "write_start"]
+
+_MESSAGE_LENGTH = 500
+
+
+def planned_size(simulation: RunView) -> tuple[int, int]:
+    """Return the approximate size of the file at the end of the run, bytes, and its number of frames."""
+    lengths, frames = _dimensions(simulation), int(simulation.case.until / simulation.case.frame_interval) + 2
+    numbers = sum(
+        int(np.prod([frames if (n := lengths[d]) is None else n for d in variable.dimensions]))
+        for variable in VARIABLES.values()
+        if all(d in lengths for d in variable.dimensions) and variable.type == "f8"
+    )
+    return 8 * numbers, frames
+
+
+def write_start(file: netCDF4.Dataset, simulation: RunView, run_id: str) -> None:
+    """Write the header and all values that do not change during the run into the new ``file``.
+
+    Raises
+    ------
+    OutputError: a diagnostic of the case has the name of another variable.
+    """
+    _define(file, simulation, _dimensions(simulation))
+    file.setncattr("run_id", run_id)
+    _fill_start(file, simulation)
+
+
+def sample_of(simulation: RunView) -> dict[str, Any]:
+    """Return the values of a sample of probes, sums and diagnostics by the names of the variables."""
+    scene = simulation.scene
+    energies = simulation.energies()
+    sample: dict[str, Any] = {
+        "probe_time": simulation.time,
+        "step": simulation.step,
+        "time_step": simulation.time_step,
+        "wall_clock": simulation.wall_clock,
+        **{f"{name}_energy": energies[name] for name in ("kinetic", "potential", "internal")},
+        "total_energy": sum(energies[name] for name in ("kinetic", "potential", "internal")),
+        "mass": float(np.nansum(simulation.masses())),
+        "particles_removed": simulation.removed_count,
+        "densities_outside": simulation.densities_outside,
+        "interpolation_status": simulation.status_counts(),
+        **simulation.diagnostics(),
+    }
+    if scene.probes:
+        sample["probe_pressure"] = simulation.probe_pressures()
+    if scene.gauges:
+        sample["gauge_elevation"] = simulation.gauge_elevations()
+    if scene.walls:
+        forces = simulation.wall_forces()
+        sample["wall_force"] = [forces[wall.name][0] for wall in scene.walls]
+        sample["wall_force_by_pressure"] = [forces[wall.name][1] for wall in scene.walls]
+    if scene.bodies:
+        motions = simulation.body_motions()
+        for name in ("position", "velocity", "acceleration"):
+            sample[f"body_{name}"] = [getattr(motions[body], name) for body in scene.bodies]
+    return sample
+
+
+def frame_of(simulation: RunView) -> dict[str, Any]:
+    """Return the values of a frame by the names of the variables; ``time`` is the last."""
+    fields = simulation.fields()
+    return {
+        **{name: getattr(fields, name) for name in ("position", "velocity", "pressure", "density")},
+        "particles_outside": simulation.particles_outside(),
+        "ghost_pressure": simulation.ghost_fields().pressure,
+        "time": simulation.time,
+    }
+
+
+def _dimensions(simulation: RunView) -> dict[str, int | None]:
+    """Lengths of the dimensions; what the case does not have is left out (a classic file has no length 0)."""
+    scene, case = simulation.scene, simulation.case
+    outlines = [line for wall in scene.walls for line in wall.outline()]
+    lengths = {
+        "space": case.dimension,
+        "motion": 3,
+        "probe": len(scene.probes),
+        "gauge": len(scene.gauges),
+        "wall": len(scene.walls),
+        "body": len(scene.bodies),
+        "status": len(Status),
+        "outline": len(outlines),
+        "node": sum(map(len, outlines)),
+        "ghost": simulation.ghost_count,
+        "particle": simulation.fluid_count,
+        "probe_time": int(np.ceil(case.until / case.probe_interval)) + 2,
+    }
+    return {**{name: length for name, length in lengths.items() if length > 0}, "time": None}
+
+
+def _define(file: netCDF4.Dataset, simulation: RunView, lengths: Mapping[str, int | None]) -> None:
+    dimension = simulation.case.dimension
+    for name, length in lengths.items():
+        file.createDimension(name, length)
+    for name, variable in _variables(simulation).items():
+        if all(d in lengths for d in variable.dimensions):
+            if variable.type == "text":
+                width = f"{name}_length"
+                file.createDimension(width, _text_length(name, simulation))
+                made = file.createVariable(name, "S1", (*variable.dimensions, width))
+                made.setncattr("_Encoding", "utf-8")
+            else:
+                fill = np.nan if variable.type == "f8" else None
+                made = file.createVariable(name, variable.type, variable.dimensions, fill_value=fill)
+                made.setncattr("units", unit_of(variable, dimension))
+            made.setncattr("long_name", variable.long_name)
+            made.setncatts(variable.attributes)
+    axes = "xyz"[:dimension]
+    for name, where in (("probe_pressure", "probe"), ("gauge_elevation", "gauge")):
+        if where in lengths:
+            known = axes if where == "probe" else axes[:-1]
+            file[name].setncattr("coordinates", " ".join(f"{where}_{axis}" for axis in known))
+    file["run_status"].setncattr("flag_values", np.array([int(status) for status in RunStatus], dtype=np.int32))
+    file["interpolation_status"].setncattr("comment", "; ".join(f"{s.name}: {s.advice}" for s in Status))
+    file.setncatts(_attributes(simulation))
+
+
+def _variables(simulation: RunView) -> dict[str, Variable]:
+    """The schema with the case's diagnostics added, ``particle_mass`` staying the last of the fixed part."""
+    dimension = simulation.case.dimension
+    absent = {"probe_z", "gauge_y"} if dimension == 2 else set()
+    diagnostics = {}
+    for diagnostic in simulation.scene.diagnostics:
+        if diagnostic.name in VARIABLES:
+            raise OutputError(f"the case's diagnostic {diagnostic.name!r} has the name of another variable: rename it")
+        diagnostics[diagnostic.name] = Variable(("probe_time",), diagnostic.unit, diagnostic.long_name)
+    known = {name: variable for name, variable in VARIABLES.items() if name not in absent}
+    mass = known.pop("particle_mass")
+    fixed = {name: variable for name, variable in known.items() if "time" not in variable.dimensions}
+    return {**fixed, **diagnostics, "particle_mass": mass, **known}
+
+
+def _names(simulation: RunView) -> dict[str, Sequence[str]]:
+    scene, dimension = simulation.scene, simulation.case.dimension
+    return {
+        "space": tuple("xyz"[:dimension]),
+        "motion": ("x", "y", "angle") if dimension == 2 else ("x", "y", "z"),
+        "probe": [probe.name for probe in scene.probes],
+        "gauge": [gauge.name for gauge in scene.gauges],
+        "wall": [wall.name for wall in scene.walls],
+        "body": list(scene.bodies),
+        "status": [status.name for status in Status],
+    }
+
+
+def _fill_start(file: netCDF4.Dataset, simulation: RunView) -> None:
+    scene, dimension = simulation.scene, simulation.case.dimension
+    for name, names in _names(simulation).items():
+        if names:
+            file[name][:] = encode_texts(names, len(file.dimensions[f"{name}_length"]))
+    file["run_status"][...] = int(RunStatus.RUNNING)
+    file["run_message"][:] = encode_texts([""], _MESSAGE_LENGTH)[0]
+    for k, axis in enumerate("xyz"[:dimension]):
+        if scene.probes:
+            file[f"probe_{axis}"][:] = [probe.position[k] for probe in scene.probes]
+        if scene.gauges and k < dimension - 1:
+            file[f"gauge_{axis}"][:] = [gauge.position[k] for gauge in scene.gauges]
+    if scene.probes:
+        file["probe_radius"][:] = [probe.radius for probe in scene.probes]
+    if scene.walls:
+        lines = [(index, line) for index, wall in enumerate(scene.walls) for line in wall.outline()]
+        file["outline_node"][:] = np.concatenate([line for _, line in lines])
+        file["outline_node_count"][:] = [len(line) for _, line in lines]
+        file["outline_wall"][:] = [index for index, _ in lines]
+        bodies = list(scene.bodies)
+        file["wall_body"][:] = [-1 if wall.body is None else bodies.index(wall.body) for wall in scene.walls]
+    if simulation.ghost_count:
+        ghosts = simulation.ghosts
+        file["ghost_position"][:] = ghosts.position
+        file["ghost_mirror_position"][:] = ghosts.mirror
+    file["particle_mass"][:] = simulation.masses()
+
+
+def _attributes(simulation: RunView) -> dict[str, Any]:
+    """Global attributes: all that repeats the run, and the scales that make its numbers dimensionless."""
+    case, scene = simulation.case, simulation.scene
+    components = {}
+    for field in COMPONENT_KINDS:
+        chosen = getattr(case, field)
+        components[field] = {"name": chosen.name, **chosen.options}
+    versions = distributions(case)
+    return {
+        "Conventions": CONVENTIONS,
+        "title": case.title,
+        "source": f"sphframe {versions['sphframe']}",
+        "case_name": registered_name(type(case)),
+        "case_parameters": json.dumps(case.model_dump(mode="json")),
+        "components": json.dumps(components),
+        "distributions": json.dumps(versions),
+        "software": json.dumps(software()),
+        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "dimension": np.int32(case.dimension),
+        "particle_spacing": case.particle_spacing,
+        "smoothing_length": simulation.smoothing_length,
+        "sound_speed": simulation.sound_speed,
+        "reference_density": case.reference_density,
+        "gravity": case.gravity,
+        "depth": scene.depth,
+        "domain_lower": np.array(scene.domain[0], dtype=np.float64),
+        "domain_upper": np.array(scene.domain[1], dtype=np.float64),
+    }
+
+
+def _text_length(name: str, simulation: RunView) -> int:
+    if name == "run_message":
+        return _MESSAGE_LENGTH
+    return max(1, *(len(text.encode()) for text in _names(simulation)[name]))

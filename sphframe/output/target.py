@@ -1,0 +1,71 @@
+"""Output: checks, before anything is computed, that the file of a run can be written."""
+
+import os
+import shutil
+from pathlib import Path
+
+from sphframe.errors import OutputError
+from sphframe.output.checkpoint import checkpoint_path
+from sphframe.output.lock import lock_file
+
+__all__ = ["check_space", "check_target", "exists_message", "locked_message"]
+
+
+def check_target(path: Path, overwrite: bool) -> None:
+    """Raise an error if no run may write to ``path``.
+
+    Raises
+    ------
+    OutputError: the file exists and ``overwrite`` is false, another run is writing it, or its folder is missing or
+        cannot be written to.
+    """
+    if path.is_dir():
+        raise OutputError(f"{path} is a folder: name a file in it, such as {path / 'run.nc'}")
+    if path.exists():
+        if not overwrite:
+            raise OutputError(exists_message(path))
+        try:
+            descriptor = lock_file(path)
+        except OSError as error:
+            raise OutputError(f"cannot replace {path}: {error.strerror}; choose another --output") from None
+        if descriptor is None:
+            raise OutputError(locked_message(path))
+        os.close(descriptor)
+    elif checkpoint_path(path).exists() and not overwrite:
+        raise OutputError(
+            f"{checkpoint_path(path)} exists, the checkpoint of a run whose output is gone: give --overwrite"
+            " (overwrite=True) to remove it, or another --output"
+        )
+    folder = path.parent
+    if not folder.is_dir():
+        raise OutputError(f"the folder {folder} for {path.name} does not exist: create it (mkdir -p {folder})")
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise OutputError(
+            f"the folder {folder} cannot be written to: change its permissions or choose another --output"
+        )
+
+
+def check_space(path: Path, planned: int, frames: int) -> None:
+    """Raise an error if the disk has not the ``planned`` number of bytes free, which ``frames`` frames need.
+
+    Raises
+    ------
+    OutputError: the free space is too small.
+    """
+    free = shutil.disk_usage(path.parent).free
+    if planned > free:
+        raise OutputError(
+            f"{path} would need about {planned / 1e9:.1f} GB for {frames} frames, but only {free / 1e9:.1f} GB are"
+            " free: choose another --output, a larger frame_interval, or free some space"
+        )
+
+
+def exists_message(path: Path) -> str:
+    """Return the message of the error that ``path`` exists already."""
+    resume = f", sphframe resume {path} to continue it" if checkpoint_path(path).exists() else ""
+    return f"{path} exists: give --overwrite (overwrite=True) to replace it{resume}, or another --output"
+
+
+def locked_message(path: Path) -> str:
+    """Return the message of the error that another run has locked ``path``."""
+    return f"another run is writing {path}: wait for it, stop it, or give another --output"
