@@ -2,7 +2,6 @@
 
 import argparse
 import csv
-import os
 import sys
 import time
 from collections.abc import Mapping, Sequence
@@ -14,6 +13,7 @@ import xarray as xr
 import sphframe
 from sphframe.analysis import read_reference_series
 from sphframe.errors import InputError, SphframeError
+from sphframe.output.files import replaced_as_a_whole
 from sphframe.simulation import Simulation
 
 METHODS = ("improved-shepard", "normalized", "shepard", "sfdi", "mls-linear", "mls-quadratic")
@@ -107,6 +107,5 @@ def replace_block(readme: Path, name: str, text: str) -> None:
     start, end = f"<!-- {name} -->", f"<!-- /{name} -->"
     before, _, rest = content.partition(start)
     _, _, after = rest.partition(end)
-    draft = readme.with_suffix(".draft")
-    draft.write_text(f"{before}{start}\n{text}\n{end}{after}", encoding="utf-8")
-    os.replace(draft, readme)
+    with replaced_as_a_whole(readme) as draft:
+        draft.write_text(f"{before}{start}\n{text}\n{end}{after}", encoding="utf-8")

@@ -1,16 +1,22 @@
 """CLI: ``sphframe new-plugin``."""
 
-import datetime
 import re
 from pathlib import Path
 
-import sphframe
+from sphframe.cli.plugin_template import LICENCES, plugin_files
 from sphframe.errors import InputError, OutputError
-from sphframe.registry import API_VERSION, available
+from sphframe.registry import available
 
-__all__ = ["LICENCES", "new_plugin"]
+__all__ = ["new_plugin", "new_plugin_command"]
 
-LICENCES = ("BSD-3-Clause", "MIT", "none")
+
+def new_plugin_command(name: str, *, folder: Path, licence: str, author: str) -> None:
+    """Write a distribution with one interpolation method, and print the next commands."""
+    root = new_plugin(name, folder=folder, licence=licence, author=author)
+    print(f"written: {root}\n")
+    print(f'  pip install -e "{root}[test]"')
+    print(f"  sphframe verify {name}")
+    print(f"  sphframe run dam-break --interpolator {name}")
 
 
 def new_plugin(name: str, *, folder: Path = Path(), licence: str = "BSD-3-Clause", author: str = "") -> Path:
@@ -18,9 +24,9 @@ def new_plugin(name: str, *, folder: Path = Path(), licence: str = "BSD-3-Clause
 
     Parameters
     ----------
-    name: of the method, as ``--interpolator`` will know it: lower-case words joined by hyphens.
+    name: name of the method, as given to ``--interpolator``: lower-case words joined by hyphens.
     folder: where the distribution's folder ``sphframe-NAME`` is made.
-    licence: one of :data:`LICENCES`.
+    licence: :data:`~sphframe.cli.plugin_template.LICENCES` names those known.
     author: named in pyproject.toml and in the licence.
 
     Returns
@@ -32,228 +38,31 @@ def new_plugin(name: str, *, folder: Path = Path(), licence: str = "BSD-3-Clause
     InputError: when the name is not of that form or is taken, or the licence is unknown.
     OutputError: when the folder exists already, or cannot be written.
     """
-    if not re.fullmatch(r"[a-z][a-z0-9]*(-[a-z0-9]+)*", name):
-        raise InputError(f"{name!r} is no name for a method: use lower-case words joined by hyphens, as in mls-linear")
-    if name.startswith("sphframe-"):
-        raise InputError(f"leave out the prefix: sphframe new-plugin {name.removeprefix('sphframe-')}")
-    for entry in available("interpolators"):
-        if entry.name == name:
-            raise InputError(f"{entry.distribution} already offers a method called {name!r}: choose another name")
+    _check_name(name)
     if licence not in LICENCES:
         raise InputError(
-            f"unknown licence {licence!r}: choose {', '.join(LICENCES)}; any other can be put in afterwards"
+            f"unknown licence {licence!r}: choose {', '.join(LICENCES)}; any other can be added afterwards"
         )
     root = folder / f"sphframe-{name}"
     if root.exists():
         raise OutputError(f"{root} exists already: choose another name or folder, or remove it")
-    words = {
-        "NAME": name,
-        "PACKAGE": f"sphframe_{name.replace('-', '_')}",
-        "CLASS": "".join(word.capitalize() for word in name.split("-")),
-        "LICENCE_LINES": "" if licence == "none" else f'license = "{licence}"\nlicense-files = ["LICENSE"]\n',
-        "AUTHORS_LINE": f'authors = [{{ name = "{_quoted(author)}" }}]\n' if author else "",
-        "OLDEST": ".".join(sphframe.__version__.split(".")[:2]),
-        "NEXT": _next_minor(sphframe.__version__),
-        "API": repr(API_VERSION),
-        "YEAR": str(datetime.date.today().year),
-        "AUTHOR": author or f"The authors of sphframe-{name}",
-    }
-    texts = {
-        "pyproject.toml": _PYPROJECT,
-        "README.md": _README,
-        f"{words['PACKAGE']}/__init__.py": _MODULE,
-        "tests/test_conformance.py": _TEST,
-        ".gitignore": "__pycache__/\n*.egg-info/\n.hypothesis/\n.pytest_cache/\nbuild/\ndist/\n*.nc\n",
-        **({} if licence == "none" else {"LICENSE": _LICENCE_TEXTS[licence]}),
-    }
     try:
-        for path, text in texts.items():
+        for path, text in plugin_files(name, licence=licence, author=author).items():
             target = root / path
             target.parent.mkdir(parents=True, exist_ok=True)
-            target.write_text(_filled(text, words), encoding="utf-8")
+            target.write_text(text, encoding="utf-8")
     except OSError as error:
         raise OutputError(f"cannot write {root}: {error}") from error
     return root
 
 
-def _filled(text: str, words: dict[str, str]) -> str:
-    return re.sub(r"@([A-Z_]+)@", lambda match: words[match.group(1)], text)
-
-
-def _quoted(text: str) -> str:
-    return text.replace("\\", "\\\\").replace('"', '\\"')
-
-
-def _next_minor(version: str) -> str:
-    major, minor, *_ = version.split(".")
-    return f"{major}.{int(minor) + 1}"
-
-
-_PYPROJECT = """\
-[build-system]
-requires = ["hatchling>=1.26"]
-build-backend = "hatchling.build"
-
-[project]
-name = "sphframe-@NAME@"
-version = "0.1.0"
-description = "The boundary interpolation method @NAME@ for sphframe"
-readme = "README.md"
-requires-python = ">=3.11"
-@LICENCE_LINES@@AUTHORS_LINE@dependencies = ["sphframe>=@OLDEST@,<@NEXT@"]
-
-[project.optional-dependencies]
-test = ["sphframe[testing]"]
-
-[project.entry-points."sphframe.interpolators"]
-@NAME@ = "@PACKAGE@:@CLASS@"
-
-[tool.hatch.build.targets.wheel]
-packages = ["@PACKAGE@"]
-
-[tool.pytest.ini_options]
-testpaths = ["tests"]
-"""
-
-_MODULE = '''\
-"""The boundary interpolation method @NAME@."""
-
-import math
-from dataclasses import dataclass
-
-from sphframe import OK, BoundaryInterpolator, CompiledKernel, Traits, WeightsFunction
-
-__all__ = ["@CLASS@"]
-
-SPHFRAME_API = @API@  # the version of the plugin interface that this was written for
-
-
-@dataclass(frozen=True)
-class @CLASS@(BoundaryInterpolator):
-    """Gaussian weights of the distance: a start, to be replaced by your formula.
-
-    With r_min the distance of the nearest particle, which keeps exp() from underflowing::
-
-        Phi_j = g_j / sum_k g_k,   g_j = exp[-(r_j^2 - r_min^2) / (width R)^2]
-    """
-
-    width: float = 0.3
-    """width of the Gaussian over the cut-off radius R, positive"""
-
-    # what the method promises; "sphframe verify @NAME@" proves it, and tells what it keeps besides
-    traits = Traits(non_negative=True, range_restricted=True, volume_independent=True)
-
-    def __post_init__(self) -> None:
-        if not self.width > 0.0:
-            raise ValueError(f"width must be positive, got {self.width!r}")
-
-    def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
-        """Return the weights of one evaluation point."""
-        width = self.width
-
-        # Compiled by Numba: plain loops and math; no arrays, no exceptions; writes to out alone.
-        def weights(offsets, distances, kernel_values, volumes, support, lift, out):
-            n = len(out)
-            nearest = distances[0]
-            for j in range(n):
-                nearest = min(nearest, distances[j])
-            total = 0.0
-            for j in range(n):
-                out[j] = math.exp((nearest**2 - distances[j] ** 2) / (width * support) ** 2)
-                total += out[j]
-            for j in range(n):
-                out[j] /= total
-            return OK
-
-        return weights
-'''
-
-_TEST = """\
-from @PACKAGE@ import @CLASS@
-
-from sphframe.testing import parametrize_with_checks
-
-
-@parametrize_with_checks([@CLASS@(), @CLASS@(width=0.5)])
-def test_keeps_its_promises(method, check):
-    check(method)
-"""
-
-_README = """\
-# sphframe-@NAME@
-
-The boundary interpolation method `@NAME@` for sphframe.
-
-    pip install -e ".[test]"
-    sphframe verify @NAME@
-    pytest
-    sphframe run dam-break --interpolator @NAME@
-
-## Paper
-Where the formula comes from: authors, year, doi.
-
-## Equation
-
-    Phi_j = g_j / sum_k g_k,   g_j = exp[-(r_j^2 - r_min^2) / (width R)^2]
-
-Options: `width` = 0.3, the width of the Gaussian over the cut-off radius R.
-
-## Limits
-Never outside the range of the neighbours' values, defined for a single neighbour; exact on constant fields only.
-"""
-
-_LICENCE_TEXTS = {
-    "BSD-3-Clause": """\
-BSD 3-Clause License
-
-Copyright (c) @YEAR@, @AUTHOR@
-
-Redistribution and use in source and binary forms, with or without
-modification, are permitted provided that the following conditions are met:
-
-1. Redistributions of source code must retain the above copyright notice, this
-   list of conditions and the following disclaimer.
-
-2. Redistributions in binary form must reproduce the above copyright notice,
-   this list of conditions and the following disclaimer in the documentation
-   and/or other materials provided with the distribution.
-
-3. Neither the name of the copyright holder nor the names of its
-   contributors may be used to endorse or promote products derived from
-   this software without specific prior written permission.
-
-THIS SOFTWARE IS PROVIDED BY THE COPYRIGHT HOLDERS AND CONTRIBUTORS "AS IS"
-AND ANY EXPRESS OR IMPLIED WARRANTIES, INCLUDING, BUT NOT LIMITED TO, THE
-IMPLIED WARRANTIES OF MERCHANTABILITY AND FITNESS FOR A PARTICULAR PURPOSE ARE
-DISCLAIMED. IN NO EVENT SHALL THE COPYRIGHT HOLDER OR CONTRIBUTORS BE LIABLE
-FOR ANY DIRECT, INDIRECT, INCIDENTAL, SPECIAL, EXEMPLARY, OR CONSEQUENTIAL
-DAMAGES (INCLUDING, BUT NOT LIMITED TO, PROCUREMENT OF SUBSTITUTE GOODS OR
-SERVICES; LOSS OF USE, DATA, OR PROFITS; OR BUSINESS INTERRUPTION) HOWEVER
-CAUSED AND ON ANY THEORY OF LIABILITY, WHETHER IN CONTRACT, STRICT LIABILITY,
-OR TORT (INCLUDING NEGLIGENCE OR OTHERWISE) ARISING IN ANY WAY OUT OF THE USE
-OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
-""",
-    "MIT": """\
-MIT License
-
-Copyright (c) @YEAR@ @AUTHOR@
-
-Permission is hereby granted, free of charge, to any person obtaining a copy
-of this software and associated documentation files (the "Software"), to deal
-in the Software without restriction, including without limitation the rights
-to use, copy, modify, merge, publish, distribute, sublicense, and/or sell
-copies of the Software, and to permit persons to whom the Software is
-furnished to do so, subject to the following conditions:
-
-The above copyright notice and this permission notice shall be included in all
-copies or substantial portions of the Software.
-
-THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR
-IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY,
-FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
-AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER
-LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
-OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE
-SOFTWARE.
-""",
-}
+def _check_name(name: str) -> None:
+    if not re.fullmatch(r"[a-z][a-z0-9]*(-[a-z0-9]+)*", name):
+        raise InputError(
+            f"{name!r} is not a name for a method: use lower-case words joined by hyphens, as in mls-linear"
+        )
+    if name.startswith("sphframe-"):
+        raise InputError(f"leave out the prefix: sphframe new-plugin {name.removeprefix('sphframe-')}")
+    for entry in available("interpolators"):
+        if entry.name == name:
+            raise InputError(f"{entry.distribution} already offers a method called {name!r}: choose another name")

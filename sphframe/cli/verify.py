@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
+import typer
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
@@ -16,7 +17,7 @@ from sphframe.errors import InputError
 if TYPE_CHECKING:
     from sphframe.testing import Report
 
-__all__ = ["verify"]
+__all__ = ["verify", "verify_command"]
 
 _COLUMNS = {
     "sum is one": ("partition_of_unity",),
@@ -35,10 +36,16 @@ _MARKS = {
     "broken": ("BROKEN", "bold red"),
     "absent": ("-", "dim"),
 }
+_BROKEN = ("broken: ", "bold red")
+
+
+def verify_command(names: Sequence[str], *, as_json: bool) -> None:
+    """Verify components; exit with 1 when one violates its declared traits."""
+    raise typer.Exit(verify(names, as_json=as_json))
 
 
 def verify(names: Sequence[str] = (), *, as_json: bool = False) -> int:
-    """Check components against what they promise, and print a table and every failure.
+    """Check components against their declared traits, and print a table and every failure.
 
     Parameters
     ----------
@@ -47,7 +54,7 @@ def verify(names: Sequence[str] = (), *, as_json: bool = False) -> int:
 
     Returns
     -------
-    The exit code: 1 when a promise is broken, 0 otherwise.
+    The exit code: 1 when a component violates its declared traits, 0 otherwise.
 
     Raises
     ------
@@ -76,37 +83,42 @@ def verify(names: Sequence[str] = (), *, as_json: bool = False) -> int:
 def _print(reports: "Sequence[Report]") -> None:
     console = Console(highlight=False, soft_wrap=True, width=None if sys.stdout.isatty() else 160)
     methods = [report for report in reports if report.kind == "interpolators"]
-    others = [report for report in reports if report.kind != "interpolators"]
     if methods:
-        table = Table(box=None, pad_edge=False)
-        for column in ("method", *_COLUMNS, "all else"):
-            table.add_column(column)
-        for report in methods:
-            verdicts = report.verdicts()
-            rest = {name for names in _COLUMNS.values() for name in names}
-            cells = [_cell([verdicts[n] for n in names if n in verdicts]) for names in _COLUMNS.values()]
-            cells.append(_cell([verdict for name, verdict in verdicts.items() if name not in rest]))
-            table.add_row(
-                Text(report.name), *(cells if report.error is None else [Text("BROKEN", "bold red")] * len(cells))
-            )
-        console.print(table)
+        console.print(_table(methods))
         console.print("yes: promised and held; (yes): held though not promised; -: not promised; BROKEN: see below\n")
-    for report in others:
-        verdicts = report.verdicts()
-        broken = [name for name, verdict in verdicts.items() if verdict == "broken"]
-        console.print(
-            Text(f"{report.name}: {'broken: ' + ', '.join(broken) if broken else 'holds ' + ', '.join(verdicts)}")
-        )
+    for report in reports:
+        if report.kind != "interpolators":
+            console.print(Text(_line(report)))
     for report in reports:
         if report.error is not None:
-            console.print(Text.assemble(("broken: ", "bold red"), f"{report.name}: {report.error}\n"))
+            console.print(Text.assemble(_BROKEN, f"{report.name}: {report.error}\n"))
         for result in report.results:
             if result.verdict == "broken":
-                console.print(
-                    Text.assemble(("broken: ", "bold red"), f"{report.name}, {result.check}\n{result.failure}\n")
-                )
+                console.print(Text.assemble(_BROKEN, f"{report.name}, {result.check}\n{result.failure}\n"))
     count = sum(report.broken for report in reports)
     console.print(f"{count} of {len(reports)} break a promise" if count else f"all {len(reports)} keep their promises")
+
+
+def _table(reports: "Sequence[Report]") -> Table:
+    """A row per interpolation method, a column per trait."""
+    table = Table(box=None, pad_edge=False)
+    for column in ("method", *_COLUMNS, "all else"):
+        table.add_column(column)
+    in_columns = {name for names in _COLUMNS.values() for name in names}
+    for report in reports:
+        verdicts = report.verdicts()
+        cells = [_cell([verdicts[n] for n in names if n in verdicts]) for names in _COLUMNS.values()]
+        cells.append(_cell([verdict for name, verdict in verdicts.items() if name not in in_columns]))
+        if report.error is not None:
+            cells = [Text(*_MARKS["broken"])] * len(cells)
+        table.add_row(Text(report.name), *cells)
+    return table
+
+
+def _line(report: "Report") -> str:
+    verdicts = report.verdicts()
+    broken = [name for name, verdict in verdicts.items() if verdict == "broken"]
+    return f"{report.name}: {'broken: ' + ', '.join(broken) if broken else 'holds ' + ', '.join(verdicts)}"
 
 
 def _cell(verdicts: Sequence[str]) -> Text:

@@ -14,6 +14,7 @@ from sphframe.analysis import convergence_order, pressure_scale, read_reference_
 from sphframe.cases import Case, load_case
 from sphframe.errors import InputError, OutputError
 from sphframe.output import open_dataset
+from sphframe.output.files import replaced_as_a_whole
 from sphframe.output.provenance import distributions, software
 from sphframe.reproduction.chapter import Cell, Chapter, Picture, Table
 from sphframe.reproduction.drawing import colour, new_figure, picture, thinned, tidy
@@ -110,9 +111,8 @@ def compare(
     finally:
         for run in runs.values():
             run.close()
-    draft = output / ".comparison.nc.draft"
-    dataset.to_netcdf(draft, engine="netcdf4")
-    draft.replace(output / "comparison.nc")
+    with replaced_as_a_whole(output / "comparison.nc") as draft:
+        dataset.to_netcdf(draft, engine="netcdf4")
     versions = dict[str, str]()
     for task in tasks.values():
         versions |= distributions(task.case())

@@ -8,12 +8,12 @@ import base64
 import csv
 import io
 import math
-import os
 from collections.abc import Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 
 from sphframe.errors import InputError, OutputError
+from sphframe.output.files import replaced_as_a_whole
 from sphframe.reproduction.chapter import Cell, Chapter, Picture, Table, Verdict
 
 __all__ = ["shown", "write_report"]
@@ -118,11 +118,10 @@ def _csv(table: Table) -> str:
 
 def _write(path: Path, content: bytes) -> None:
     """Replace ``path`` by ``content``: what was there stays until all is written."""
-    draft = path.with_name(f".{path.name}.draft")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        draft.write_bytes(content)
-        os.replace(draft, path)
+        with replaced_as_a_whole(path) as draft:
+            draft.write_bytes(content)
     except OSError as error:
         raise OutputError(
             f"cannot write {path}: {error.strerror or error}; free some space or check the folder"

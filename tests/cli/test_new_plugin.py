@@ -8,7 +8,8 @@ import tomllib
 import pytest
 
 from sphframe import InputError, OutputError, create
-from sphframe.cli.new_plugin import LICENCES, new_plugin
+from sphframe.cli.new_plugin import new_plugin
+from sphframe.cli.plugin_template import LICENCES
 from sphframe.testing import checks_of
 
 
