@@ -6,9 +6,10 @@ from sphframe.analysis.export import export_csv, export_run, vtk_parts
 from sphframe.analysis.fields import free_surface, particles_at, to_grid
 from sphframe.analysis.films import animate_run
 from sphframe.analysis.plots import plot_run
-from sphframe.analysis.probes import probe_statistics, series_error
+from sphframe.analysis.probes import probe_statistics
 from sphframe.analysis.reference import read_reference_series, references_for
 from sphframe.analysis.scales import pressure_scale, rest_pressure, time_scale
+from sphframe.analysis.series import running_mean, series_error
 from sphframe.analysis.summary import concerns, front_arrival, summary
 
 __all__ = [
@@ -28,6 +29,7 @@ __all__ = [
     "read_reference_series",
     "references_for",
     "rest_pressure",
+    "running_mean",
     "series_error",
     "summary",
     "time_scale",

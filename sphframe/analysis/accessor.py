@@ -6,6 +6,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from sphframe.analysis import fields, plots, probes, scales
+from sphframe.analysis.series import series_error
 from sphframe.analysis.summary import summary
 
 __all__ = ["SphAccessor"]
@@ -72,7 +73,7 @@ class SphAccessor:
 
         ``dataset.sph.error("probe_pressure", reference, probe="P1")``
         """
-        return probes.series_error(self.dimensionless(name).sel(selection), reference)
+        return series_error(self.dimensionless(name).sel(selection), reference)
 
     def plot(self, path: Any = None, **options: Any) -> Any:
         """See :func:`sphframe.analysis.plot_run`."""

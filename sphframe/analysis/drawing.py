@@ -1,11 +1,8 @@
-"""Analysis: the parts of a picture: particles, walls, probes, free surface, scales and labels.
-
-matplotlib is imported on first use.
-"""
+"""Analysis: the parts of a picture: particles, walls, probes, free surface, scales and labels."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -17,25 +14,26 @@ from sphframe.errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
     from matplotlib.collections import EllipseCollection
-    from matplotlib.figure import Figure
+    from matplotlib.figure import FigureBase
     from matplotlib.lines import Line2D
 
 __all__ = [
     "FIELDS",
     "Field",
     "colour_limits",
+    "draw_colour_bar",
     "draw_free_surface",
     "draw_particles",
     "draw_probes",
     "draw_walls",
     "field_to_draw",
-    "figure_class",
     "move_walls",
     "run_title",
     "shown_particles",
-    "tidy",
     "time_label",
+    "vertical_axis",
     "view_of",
     "walls_at",
 ]
@@ -74,20 +72,6 @@ def field_to_draw(name: str) -> Field:
     if name not in FIELDS:
         raise InputError(f"no field {name!r} to draw; choose one of {', '.join(FIELDS)}")
     return FIELDS[name]
-
-
-def figure_class() -> type["Figure"]:
-    """Return matplotlib's figure, which opens no window.
-
-    Raises
-    ------
-    InputError: matplotlib is not installed.
-    """
-    try:
-        from matplotlib.figure import Figure
-    except ImportError:
-        raise InputError("pictures need matplotlib: install it with pip install 'sphframe[plot]'") from None
-    return Figure
 
 
 def shown_particles(dataset: xr.Dataset, frame: xr.Dataset, values: Array) -> tuple[Array, Array]:
@@ -164,7 +148,7 @@ def draw_probes(axes: "Axes", dataset: xr.Dataset) -> "list[Line2D]":
     """Mark where the pressure probes are; return the marks."""
     if "probe_pressure" not in dataset:
         return []
-    across, up = dataset["probe_x"].values, dataset[f"probe_{'xyz'[_dimension(dataset) - 1]}"].values
+    across, up = dataset["probe_x"].values, dataset[f"probe_{vertical_axis(dataset)}"].values
     return axes.plot(
         across, up, "o", markersize=4, color="white", markeredgecolor="black", markeredgewidth=0.8, zorder=4
     )
@@ -219,16 +203,22 @@ def run_title(dataset: xr.Dataset) -> str:
     return "  ·  ".join(parts)
 
 
-def tidy(axes: "Axes", *, grid: bool = True) -> None:
-    """Small ticks, no box, a faint grid."""
-    axes.tick_params(labelsize=9, length=2)
-    axes.spines[["top", "right"]].set_visible(False)
-    if grid:
-        axes.grid(linewidth=0.4, alpha=0.4)
+def draw_colour_bar(
+    figure: "FigureBase", drawn: "ScalarMappable", axes: Any, field: Field, *, size: float, **options: Any
+) -> None:
+    """Draw the colour bar of ``drawn`` beside ``axes``, labelled in points of ``size``.
+
+    Its ends are pointed where there may be values beyond them: always above, and below unless it starts at zero.
+    """
+    extend = "max" if drawn.get_clim()[0] == 0.0 else "both"
+    bar = figure.colorbar(drawn, ax=axes, pad=0.01, fraction=0.03, extend=extend, **options)
+    bar.set_label(f"{field.label} ({field.unit})", fontsize=size)
+    bar.ax.tick_params(labelsize=size - 1)
 
 
-def _dimension(dataset: xr.Dataset) -> int:
-    return int(dataset.attrs["dimension"])
+def vertical_axis(dataset: xr.Dataset) -> str:
+    """Name of the vertical coordinate: ``y`` in 2-D, ``z`` in 3-D."""
+    return "xyz"[int(dataset.attrs["dimension"]) - 1]
 
 
 def _moved(points: Array, dataset: xr.Dataset, body: int, time: float) -> Array:

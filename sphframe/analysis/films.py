@@ -1,9 +1,10 @@
 """Analysis: films of a run. Needs matplotlib and imageio-ffmpeg, which brings its own ffmpeg.
 
-Only what moves is drawn anew in each frame. Particles are markers in 64 levels of colour: matplotlib draws equal
+Only what moves is drawn again in each frame. Particles are markers in 64 levels of colour: matplotlib draws equal
 markers from one raster, six times as fast as discs of a colour each.
 """
 
+import itertools
 import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -14,27 +15,33 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from sphframe.analysis.drawing import (
+    FIELDS,
+    Field,
+    View,
     colour_limits,
+    draw_colour_bar,
     draw_probes,
     draw_walls,
     field_to_draw,
-    figure_class,
     move_walls,
     run_title,
     shown_particles,
-    tidy,
+    vertical_axis,
     view_of,
 )
 from sphframe.analysis.fields import particles_at
+from sphframe.analysis.figures import figure_class, new_figure, tidy
 from sphframe.analysis.scales import time_scale
 from sphframe.errors import InputError, OutputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
 
 __all__ = ["animate_run", "film_frames"]
 
 _LEVELS = 64
+_DOTS_PER_INCH = 100.0
 _CODECS: dict[str, dict[str, Any]] = {
     ".mp4": {"codec": "libx264", "quality": 7},
     ".gif": {
@@ -71,20 +78,12 @@ def animate_run(
     OutputError: the film cannot be written.
     """
     path = Path(path)
-    if path.suffix.lower() not in _CODECS:
-        raise InputError(f"a film ends in .mp4 or .gif, not {path.name!r}")
-    if not frames_per_second > 0.0:
-        raise InputError(f"a film has a positive number of frames a second, such as 25, not {frames_per_second:g}")
-    if not path.parent.is_dir():
-        raise OutputError(f"the folder {path.parent} for {path.name} does not exist: create it")
-    try:
-        import imageio_ffmpeg
-    except ImportError:
-        raise InputError("films need imageio-ffmpeg: install it with pip install 'sphframe[film]'") from None
+    _check_film(path, frames_per_second)
+    ffmpeg = _imageio_ffmpeg()
     pictures = film_frames(dataset, field=field, times=track([float(time) for time in dataset["time"].values]))
     first = next(pictures)
     height, width, _ = first.shape
-    writer = imageio_ffmpeg.write_frames(
+    writer = ffmpeg.write_frames(
         str(path),
         (width, height),
         fps=frames_per_second,
@@ -95,7 +94,7 @@ def animate_run(
     count = 0
     try:
         writer.send(None)
-        for picture in _chained(first, pictures):
+        for picture in itertools.chain([first], pictures):
             writer.send(np.ascontiguousarray(picture))
             count += 1
     except OSError as error:
@@ -103,6 +102,23 @@ def animate_run(
     finally:
         writer.close()
     return count
+
+
+def _check_film(path: Path, frames_per_second: float) -> None:
+    if path.suffix.lower() not in _CODECS:
+        raise InputError(f"a film ends in .mp4 or .gif, not {path.name!r}")
+    if not frames_per_second > 0.0:
+        raise InputError(f"a film has a positive number of frames per second, such as 25, not {frames_per_second:g}")
+    if not path.parent.is_dir():
+        raise OutputError(f"the folder {path.parent} for {path.name} does not exist: create it")
+
+
+def _imageio_ffmpeg() -> Any:
+    try:
+        import imageio_ffmpeg
+    except ImportError:
+        raise InputError("films need imageio-ffmpeg: install it with pip install 'sphframe[film]'") from None
+    return imageio_ffmpeg
 
 
 def film_frames(
@@ -114,67 +130,92 @@ def film_frames(
     ------
     InputError: matplotlib is not installed, the run has no frame, or the field is unknown.
     """
-    style = field_to_draw(field)
-    make_figure = figure_class()
-    from matplotlib import colormaps
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
-
+    field_to_draw(field)
+    figure_class()
     stored = dataset["time"].values
-    scale_frames = [particles_at(dataset, float(t)) for t in stored[:: max(len(stored) // 8, 1)]] or [
-        particles_at(dataset)
-    ]
-    (x0, x1), (y0, y1) = view_of(dataset, scale_frames)
-    low, high = colour_limits(dataset, scale_frames, field)
-    height = float(np.clip(10.6 * (y1 - y0) / (x1 - x0) + 1.6, 3.0, 9.6))
-    figure = make_figure(figsize=(12.8, 0.02 * round(height / 0.02)), dpi=100, layout="constrained")
-    canvas: Any = FigureCanvasAgg(figure)
-    axes = figure.add_subplot()
-    axes.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal")
-    axes.set_xlabel("x (m)", fontsize=12)
-    axes.set_ylabel(f"{'xyz'[int(dataset.attrs['dimension']) - 1]} (m)", fontsize=12)
-    tidy(axes, grid=False)
-    axes.tick_params(labelsize=11)
-    bar = figure.colorbar(
-        ScalarMappable(Normalize(low, high), style.colours),
-        ax=axes,
-        pad=0.01,
-        fraction=0.03,
-        extend="max" if low == 0.0 else "both",
-    )
-    bar.set_label(f"{style.label} ({style.unit})", fontsize=12)
-    bar.ax.tick_params(labelsize=11)
-    figure.suptitle(run_title(dataset), fontsize=13, wrap=True)
-    probes = draw_probes(axes, dataset)
-    title = axes.set_title(_time_text(dataset, 0.0), fontsize=12, loc="left")
-    walls = draw_walls(axes, dataset, 0.0)
-    canvas.draw()  # lays the figure out
-    figure.set_layout_engine("none")
-    dots = [
-        axes.plot(
-            [], [], "o", color=colour, markersize=_marker_size(axes, dataset), markeredgewidth=0.4, animated=True
-        )[0]
-        for colour in colormaps[style.colours](np.linspace(0.0, 1.0, _LEVELS))
-    ]
-    for artist in (title, *walls, *probes):
-        artist.set_animated(True)
-    canvas.draw()
-    background = canvas.copy_from_bbox(figure.bbox)
+    shown = [particles_at(dataset, float(t)) for t in stored[:: max(len(stored) // 8, 1)]] or [particles_at(dataset)]
+    picture = _FilmPicture(dataset, field, view_of(dataset, shown), colour_limits(dataset, shown, field))
     for time in stored if times is None else times:
-        frame = particles_at(dataset, float(time))
-        position, values = shown_particles(dataset, frame, frame[field].values * style.factor)
+        yield picture.at(float(time))
+
+
+class _FilmPicture:
+    """The picture of a run: axes and labels drawn once, and the artists that are drawn again in each frame.
+
+    Parameters
+    ----------
+    view: limits of x and of the height, m.
+    limits: values at the ends of the colour bar, in the unit of the field.
+    """
+
+    def __init__(self, dataset: xr.Dataset, field: str, view: View, limits: tuple[float, float]) -> None:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+        self._dataset, self._field, self._limits = dataset, field, limits
+        self._axes = _film_axes(dataset, FIELDS[field], view, limits)
+        figure: Any = self._axes.figure
+        canvas: Any = FigureCanvasAgg(figure)
+        self._canvas = canvas
+        self._probes = draw_probes(self._axes, dataset)
+        self._title = self._axes.set_title(_time_text(dataset, 0.0), fontsize=12, loc="left")
+        self._walls = draw_walls(self._axes, dataset, 0.0)
+        canvas.draw()  # lays the figure out
+        figure.set_layout_engine("none")
+        self._dots = _particle_markers(self._axes, dataset, FIELDS[field].colours)
+        for artist in (self._title, *self._walls, *self._probes):
+            artist.set_animated(True)
+        canvas.draw()
+        self._background = canvas.copy_from_bbox(figure.bbox)
+
+    def at(self, time: float) -> NDArray[np.uint8]:
+        """Return the picture (height, width, 4) of the frame nearest to ``time`` (s)."""
+        frame = particles_at(self._dataset, time)
+        now = float(frame["time"])
+        self._move_particles(frame)
+        self._title.set_text(_time_text(self._dataset, now))
+        move_walls(self._walls, self._dataset, now)
+        self._canvas.restore_region(self._background)
+        for artist in (*self._dots, *self._walls, *self._probes, self._title):
+            self._axes.draw_artist(artist)
+        return np.asarray(self._canvas.buffer_rgba()).copy()
+
+    def _move_particles(self, frame: xr.Dataset) -> None:
+        low, high = self._limits
+        factor = FIELDS[self._field].factor
+        position, values = shown_particles(self._dataset, frame, frame[self._field].values * factor)
         level = np.clip(np.nan_to_num((values - low) / (high - low)) * _LEVELS, 0, _LEVELS - 1).astype(int)
         order = np.argsort(level, kind="stable")
         ends = np.searchsorted(level[order], np.arange(1, _LEVELS + 1))
-        for line, members in zip(dots, np.split(order, ends[:-1]), strict=True):
+        for line, members in zip(self._dots, np.split(order, ends[:-1]), strict=True):
             line.set_data(position[members, 0], position[members, 1])
-        title.set_text(_time_text(dataset, float(frame["time"])))
-        move_walls(walls, dataset, float(frame["time"]))
-        canvas.restore_region(background)
-        for artist in (*dots, *walls, *probes, title):
-            axes.draw_artist(artist)
-        yield np.asarray(canvas.buffer_rgba()).copy()
+
+
+def _film_axes(dataset: xr.Dataset, style: Field, view: View, limits: tuple[float, float]) -> "Axes":
+    """Return the axes of a new figure with all labels and the colour bar, but nothing of the run in them."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    (x0, x1), (y0, y1) = view
+    height = float(np.clip(10.6 * (y1 - y0) / (x1 - x0) + 1.6, 3.0, 9.6))
+    figure = new_figure(12.8, 0.02 * round(height / 0.02), dpi=_DOTS_PER_INCH)
+    axes: Axes = figure.add_subplot()
+    tidy(axes, grid=False, label_size=11, xlim=(x0, x1), ylim=(y0, y1), aspect="equal")
+    axes.set_xlabel("x (m)", fontsize=12)
+    axes.set_ylabel(f"{vertical_axis(dataset)} (m)", fontsize=12)
+    draw_colour_bar(figure, ScalarMappable(Normalize(*limits), style.colours), axes, style, size=12)
+    figure.suptitle(run_title(dataset), fontsize=13, wrap=True)
+    return axes
+
+
+def _particle_markers(axes: "Axes", dataset: xr.Dataset, colours: str) -> "list[Line2D]":
+    """Return one line of markers for each level of colour, without points as yet."""
+    from matplotlib import colormaps
+
+    size = _marker_size(axes, dataset)
+    return [
+        axes.plot([], [], "o", color=colour, markersize=size, markeredgewidth=0.4, animated=True)[0]
+        for colour in colormaps[colours](np.linspace(0.0, 1.0, _LEVELS))
+    ]
 
 
 def _time_text(dataset: xr.Dataset, time: float) -> str:
@@ -185,9 +226,4 @@ def _time_text(dataset: xr.Dataset, time: float) -> str:
 def _marker_size(axes: "Axes", dataset: xr.Dataset) -> float:
     """A particle spacing in points, enlarged by a pixel: markers are drawn at whole pixels, and would leave gaps."""
     ends = axes.transData.transform([(0.0, 0.0), (float(dataset.attrs["particle_spacing"]), 0.0)])
-    return (float(ends[1, 0] - ends[0, 0]) + 1.0) * 72.0 / 100.0
-
-
-def _chained(first: NDArray[np.uint8], rest: Iterator[NDArray[np.uint8]]) -> Iterator[NDArray[np.uint8]]:
-    yield first
-    yield from rest
+    return (float(ends[1, 0] - ends[0, 0]) + 1.0) * 72.0 / _DOTS_PER_INCH

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import xarray as xr
 
-from sphframe.analysis.drawing import field_to_draw, figure_class
+from sphframe.analysis.drawing import field_to_draw
+from sphframe.analysis.figures import figure_class
 from sphframe.analysis.plots import plot_run
 from sphframe.analysis.scales import case_of
 from sphframe.analysis.summary import concerns

@@ -9,27 +9,32 @@ import numpy as np
 import xarray as xr
 
 from sphframe.analysis.drawing import (
+    FIELDS,
+    View,
     colour_limits,
+    draw_colour_bar,
     draw_free_surface,
     draw_particles,
     draw_probes,
     draw_walls,
     field_to_draw,
-    figure_class,
     run_title,
-    tidy,
     time_label,
+    vertical_axis,
     view_of,
 )
 from sphframe.analysis.fields import particles_at
+from sphframe.analysis.figures import figure_class, new_figure, save_figure, tidy
 from sphframe.analysis.scales import pressure_scale, time_scale
-from sphframe.errors import OutputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["draw_histories", "draw_particles", "draw_walls", "plot_run"]
+__all__ = ["draw_histories", "plot_run"]
+
+_WIDTH = 10.0
+"""of a picture, inches"""
 
 
 def plot_run(
@@ -64,55 +69,67 @@ def plot_run(
     InputError: matplotlib is not installed, the run has no frame, or the field or a time is unknown.
     OutputError: the picture cannot be written.
     """
-    style = field_to_draw(field)
-    make_figure = figure_class()
+    field_to_draw(field)
+    figure_class()
     frames = [particles_at(dataset, time) for time in (_spread(dataset) if times is None else times)]
-    (x0, x1), (y0, y1) = view_of(dataset, frames)
+    view = view_of(dataset, frames)
     columns = 1 if len(frames) == 1 else 2
     rows = math.ceil(len(frames) / columns)
-    width = 10.0
-    panel = (width - 1.6) / columns * (y1 - y0) / (x1 - x0) + 0.32
-    panel = min(panel, 4.0)
+    height = rows * _panel_height(view, columns)
     below = 2.5 if dataset.sizes["probe_time"] > 1 else 0.0
-    figure = make_figure(figsize=(width, rows * panel + below + 1.0), dpi=150, layout="constrained")
-    grid = figure.add_gridspec(2 if below else 1, 1, height_ratios=[rows * panel + 0.4, below] if below else [1.0])
+    figure = new_figure(_WIDTH, height + below + 1.0, dpi=150)
+    grid = figure.add_gridspec(2 if below else 1, 1, height_ratios=[height + 0.4, below] if below else [1.0])
     upper = figure.add_subfigure(grid[0])
-    low, high = colour_limits(dataset, frames, field)
     panels = upper.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
-    drawn = None
+    _draw_panels(upper, panels, dataset, frames, field, view, surface=surface)
+    if below:
+        _draw_series(figure.add_subfigure(grid[1]), dataset, reference)
+    figure.suptitle(run_title(dataset), fontsize=12, wrap=True)
+    if path is not None:
+        save_figure(figure, path)
+    drawn: Figure = figure
+    return drawn
+
+
+def _panel_height(view: View, columns: int) -> float:
+    """Height of a panel in inches, of which there are ``columns`` side by side."""
+    (x0, x1), (y0, y1) = view
+    return min((_WIDTH - 1.6) / columns * (y1 - y0) / (x1 - x0) + 0.32, 4.0)
+
+
+def _draw_panels(
+    figure: Any, panels: Any, dataset: xr.Dataset, frames: list[xr.Dataset], field: str, view: View, *, surface: bool
+) -> None:
+    """Draw each of ``frames`` in one of the ``panels`` (rows, columns) of ``figure``, with one colour bar for all."""
+    style = FIELDS[field]
+    limits = colour_limits(dataset, frames, field)
     for axes, frame in zip(panels.flat, frames, strict=False):
         time = float(frame["time"])
         draw_walls(axes, dataset, time)
         drawn = draw_particles(axes, dataset, frame, frame[field].values * style.factor)
-        drawn.set(cmap=style.colours, clim=(low, high))
+        drawn.set(cmap=style.colours, clim=limits)
         draw_probes(axes, dataset)
         if surface:
             draw_free_surface(axes, dataset, time)
-        axes.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal")
+        tidy(axes, grid=False, xlim=view[0], ylim=view[1], aspect="equal")
         axes.set_title(time_label(dataset, time), fontsize=10, loc="left", pad=3)
-        tidy(axes, grid=False)
     for axes in panels.flat[len(frames) :]:
         axes.set_axis_off()
     for axes in panels[-1]:
         axes.set_xlabel("x (m)", fontsize=10)
     for axes in panels[:, 0]:
-        axes.set_ylabel(f"{'xyz'[int(dataset.attrs['dimension']) - 1]} (m)", fontsize=10)
-    assert drawn is not None
-    bar = upper.colorbar(drawn, ax=panels, pad=0.01, fraction=0.03, aspect=30, extend="max" if low == 0.0 else "both")
-    bar.set_label(f"{style.label} ({style.unit})", fontsize=10)
-    bar.ax.tick_params(labelsize=9)
-    if below:
-        lower = figure.add_subfigure(grid[1])
-        if "probe_pressure" in dataset or "gauge_elevation" in dataset:
-            left, right = lower.subplots(1, 2, width_ratios=[1.7, 1.0], gridspec_kw={"wspace": 0.06})
-            draw_histories(left, dataset, reference)
-        else:
-            right = lower.subplots()
-        _draw_energies(right, dataset)
-    figure.suptitle(run_title(dataset), fontsize=12, wrap=True)
-    if path is not None:
-        _save(figure, path)
-    return figure
+        axes.set_ylabel(f"{vertical_axis(dataset)} (m)", fontsize=10)
+    draw_colour_bar(figure, drawn, panels, style, size=10, aspect=30)
+
+
+def _draw_series(figure: Any, dataset: xr.Dataset, reference: xr.DataArray | Sequence[xr.DataArray] | None) -> None:
+    """Draw the histories at probes or gauges, where the run has some, beside the energies."""
+    if "probe_pressure" in dataset or "gauge_elevation" in dataset:
+        left, right = figure.subplots(1, 2, width_ratios=[1.7, 1.0], gridspec_kw={"wspace": 0.06})
+        draw_histories(left, dataset, reference)
+    else:
+        right = figure.subplots()
+    _draw_energies(right, dataset)
 
 
 def draw_histories(
@@ -176,10 +193,3 @@ def _spread(dataset: xr.Dataset) -> list[float]:
     if count <= 1:
         return [float(t) for t in times] or [0.0]
     return [float(times[k]) for k in sorted({round(part * (count - 1)) for part in (0.25, 0.5, 0.75, 1.0)})]
-
-
-def _save(figure: Any, path: str | os.PathLike[str]) -> None:
-    try:
-        figure.savefig(path)
-    except (OSError, ValueError) as error:
-        raise OutputError(f"cannot write the picture {path}: {error}; choose another name, ending in .png") from None

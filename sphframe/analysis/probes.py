@@ -1,4 +1,4 @@
-"""Analysis: what probes and other sampled series say."""
+"""Analysis: statistics of the pressure at the probes."""
 
 import numpy as np
 import xarray as xr
@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike
 
 from sphframe.errors import InputError
 
-__all__ = ["probe_statistics", "series_error"]
+__all__ = ["probe_statistics"]
 
 
 def probe_statistics(
@@ -48,48 +48,3 @@ def probe_statistics(
     for variable in statistics.data_vars.values():
         variable.attrs["units"] = "Pa"
     return statistics
-
-
-def series_error(series: xr.DataArray, reference: xr.DataArray) -> dict[str, float]:
-    """Compare a sampled series with a reference at the reference's own times, where both exist.
-
-    Parameters
-    ----------
-    series, reference: one-dimensional, over coordinates that mean the same (both in s, or both dimensionless).
-
-    Returns
-    -------
-    ``rms``, ``bias`` (mean of series - reference) and ``largest`` difference, in the unit of the series; the number
-    of ``points`` compared, and the ``correlation``, NaN where either does not vary.
-
-    Raises
-    ------
-    InputError: fewer than two reference points lie within the series.
-
-    Examples
-    --------
-    >>> series = xr.DataArray([0.0, 2.0, 4.0], coords={"t": [0.0, 1.0, 2.0]})
-    >>> reference = xr.DataArray([1.0, 2.0, 9.0], coords={"t": [0.0, 1.5, 3.0]})
-    >>> error = series_error(series, reference)
-    >>> round(error["rms"], 3), error["bias"], error["points"]
-    (1.0, 0.0, 2.0)
-    """
-    t, values = (np.asarray(array, dtype=np.float64) for array in (series[series.dims[0]], series))
-    t_reference, expected = (np.asarray(array, dtype=np.float64) for array in (reference[reference.dims[0]], reference))
-    common = (t_reference >= t[0]) & (t_reference <= t[-1]) & np.isfinite(expected) if t.size else np.zeros(0, bool)
-    if common.sum() < 2:
-        raise InputError(
-            f"the series covers {t[0] if t.size else 0:g} to {t[-1] if t.size else 0:g}, the reference"
-            f" {t_reference.min():g} to {t_reference.max():g}: they do not overlap; use the same unit of time"
-        )
-    given = np.interp(t_reference[common], t, values)
-    expected = expected[common]
-    difference = given - expected
-    varies = np.ptp(given) > 0.0 and np.ptp(expected) > 0.0
-    return {
-        "rms": float(np.sqrt(np.mean(difference**2))),
-        "bias": float(difference.mean()),
-        "largest": float(np.abs(difference).max()),
-        "correlation": float(np.corrcoef(given, expected)[0, 1]) if varies else float("nan"),
-        "points": float(common.sum()),
-    }

@@ -30,9 +30,16 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
     - ``peaks``: for each probe its ``pressure``, ``time``, and both over rho0 g H and sqrt(H/g);
     - ``front_arrival``: see :func:`front_arrival`; None where the case has no front.
     """
+    result = _of_the_case(dataset) | {"time": 0.0, "steps": 0, "wall_clock": 0.0}
+    result |= {"front_arrival": front_arrival(dataset), "particles_removed": 0, "densities_outside": 0}
+    if dataset.sizes["time"]:
+        result["particles_outside"] = int(dataset["particles_outside"].max())
+    return result | _of_the_samples(dataset) if dataset.sizes["probe_time"] else result
+
+
+def _of_the_case(dataset: xr.Dataset) -> dict[str, Any]:
     case = case_of(dataset)
-    sampled = dataset.sizes["probe_time"] > 0
-    result: dict[str, Any] = {
+    return {
         "case": dataset.attrs["case_name"],
         "interpolator": case["interpolator"]["name"],
         "hydrostatic_lift": case["hydrostatic_lift"],
@@ -40,28 +47,22 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
         "particles": int(dataset.sizes["particle"]),
         "ghosts": int(dataset.sizes.get("ghost", 0)),
         "completed": dataset.attrs["completed"],
-        "time": 0.0,
-        "steps": 0,
-        "wall_clock": 0.0,
-        "front_arrival": front_arrival(dataset),
-        "particles_removed": 0,
-        "densities_outside": 0,
     }
-    if dataset.sizes["time"]:
-        result["particles_outside"] = int(dataset["particles_outside"].max())
-    if not sampled:
-        return result
+
+
+def _of_the_samples(dataset: xr.Dataset) -> dict[str, Any]:
+    """What a run with at least one sample has sampled."""
     last = dataset.isel(probe_time=-1)
     wall_clock, steps = float(last["wall_clock"]), int(last["step"])
     energy, mass = dataset["total_energy"].values, dataset["mass"].values
     counts = dataset["interpolation_status"].sum("probe_time")
     rate = steps / wall_clock if wall_clock > 0.0 else 0.0
-    result |= {
+    return {
         "time": float(last["probe_time"]),
         "steps": steps,
         "wall_clock": wall_clock,
         "steps_per_second": rate,
-        "particle_updates_per_second": rate * result["particles"],
+        "particle_updates_per_second": rate * int(dataset.sizes["particle"]),
         "particles_removed": int(last["particles_removed"]),
         "densities_outside": int(dataset["densities_outside"].max()),
         "energy_excess": float(np.max(energy) / energy[0] - 1.0) if energy[0] else 0.0,
@@ -71,7 +72,6 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
         },
         "peaks": _peaks(dataset),
     }
-    return result
 
 
 def front_arrival(dataset: xr.Dataset) -> dict[str, float] | None:

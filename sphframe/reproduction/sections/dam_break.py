@@ -9,7 +9,7 @@ import xarray as xr
 from scipy.spatial import cKDTree
 
 from sphframe.analysis import particles_at, plot_run, pressure_scale, series_error, summary, time_scale
-from sphframe.analysis.plots import draw_particles, draw_walls
+from sphframe.analysis.drawing import draw_particles, draw_walls
 from sphframe.errors import InputError
 from sphframe.reproduction.chapter import Cell, Chapter, Claim, Picture, Table
 from sphframe.reproduction.drawing import colour, new_figure, picture, thinned, tidy

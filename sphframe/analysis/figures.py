@@ -1,0 +1,58 @@
+"""Analysis: how every figure is made and looks. matplotlib is imported on first use."""
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from sphframe.errors import InputError, OutputError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["figure_class", "new_figure", "save_figure", "tidy"]
+
+
+def figure_class() -> type["Figure"]:
+    """Return matplotlib's figure class, which opens no window.
+
+    Raises
+    ------
+    InputError: matplotlib is not installed.
+    """
+    try:
+        from matplotlib.figure import Figure
+    except ImportError:
+        raise InputError("pictures need matplotlib: install it with pip install 'sphframe[plot]'") from None
+    return Figure
+
+
+def new_figure(width: float, height: float, *, dpi: float | None = None) -> Any:
+    """Return an empty figure of ``width`` by ``height`` inches, by default with matplotlib's own resolution.
+
+    Raises
+    ------
+    InputError: matplotlib is not installed.
+    """
+    return figure_class()(figsize=(width, height), dpi=dpi, layout="constrained")
+
+
+def tidy(axes: "Axes", *, grid: bool = True, label_size: float = 9.0, **settings: Any) -> None:
+    """Give axes the look of all figures: small ticks, no box, a faint grid; ``settings`` are passed to ``axes.set``."""
+    axes.set(**settings)
+    axes.tick_params(labelsize=label_size, length=2)
+    axes.spines[["top", "right"]].set_visible(False)
+    if grid:
+        axes.grid(linewidth=0.4, alpha=0.4)
+
+
+def save_figure(figure: "Figure", path: str | os.PathLike[str]) -> None:
+    """Write ``figure`` to the file ``path``, whose suffix chooses the format.
+
+    Raises
+    ------
+    OutputError: the file cannot be written, or the format is unknown.
+    """
+    try:
+        figure.savefig(path)
+    except (OSError, ValueError) as error:
+        raise OutputError(f"cannot write the picture {path}: {error}; choose another name, ending in .png") from None
