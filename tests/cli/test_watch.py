@@ -78,7 +78,7 @@ def mark(path: Path, status: RunStatus, message: str = "") -> None:
 
 
 def get(server: WatchServer, path: str) -> tuple[str, bytes]:
-    with urlopen(server.address + path, timeout=60) as answer:
+    with urlopen(server.address + path) as answer:
         return answer.headers["Content-Type"], answer.read()
 
 
@@ -158,7 +158,7 @@ def test_what_the_server_answers(server: WatchServer) -> None:
     ("path", "host", "status"), [("/picture.png", None, 404), ("/other", None, 404), ("/", "elsewhere.example", 403)]
 )
 def test_what_the_server_refuses(server: WatchServer, path: str, host: str | None, status: int) -> None:
-    connection = http.client.HTTPConnection("127.0.0.1", server.server_port, timeout=60)
+    connection = http.client.HTTPConnection("127.0.0.1", server.server_port)
     connection.request("GET", path, headers={"Host": host} if host else {})
     assert connection.getresponse().status == status
     connection.close()
@@ -170,7 +170,7 @@ def test_ctrl_c_ends_the_page(run_file: Path) -> None:
         assert process.stdout is not None
         assert "is shown at http://127.0.0.1:" in process.stdout.readline()
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate()
     assert (process.returncode, errors) == (0, "")
 
 
@@ -183,6 +183,7 @@ def test_a_browser_follows_the_run(run_file: Path, server: WatchServer) -> None:
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=browser.browser(), args=["--no-sandbox"])
         page = chromium.new_page()
+        page.set_default_timeout(0.0)  # none
         page.on("pageerror", lambda error: errors.append(str(error)))
         page.goto(server.address)
         page.wait_for_function("document.getElementById('picture').naturalWidth == 1500")

@@ -1,9 +1,11 @@
 """A stand-in for a simulation: particles that move as told, with every quantity a known function of time.
 
-Run as a program, it starts a process for each file named on its input, which writes that file until it is killed.
+Run as a program, it starts a process for each line ``DELAY FILE`` of its input, which writes that file and is killed
+after DELAY s of processor time.
 """
 
 import os
+import signal
 import sys
 from types import SimpleNamespace
 from typing import Any, ClassVar
@@ -111,12 +113,17 @@ def play(writer: NetCDFWriter, simulation: FakeSimulation, steps: int) -> None:
 
 if __name__ == "__main__":
     for line in sys.stdin:
+        delay, path = line.strip().split(" ", 1)
         child = os.fork()
         if child == 0:
-            endless = FakeSimulation(FakeCase(until=100.0), particles=2000)
-            endless_writer = NetCDFWriter(line.strip(), flush_interval=0.005)
-            endless_writer.sphframe_run_started(simulation=endless)
-            print(os.getpid(), flush=True)
-            play(endless_writer, endless, 9_000)
-        os.wait()
-        print("killed", flush=True)
+            try:
+                endless = FakeSimulation(FakeCase(until=100.0), particles=2000)
+                endless_writer = NetCDFWriter(path, flush_interval=0.005)
+                endless_writer.sphframe_run_started(simulation=endless)
+                signal.signal(signal.SIGPROF, signal.SIG_DFL)
+                signal.setitimer(signal.ITIMER_PROF, float(delay))  # of processor time, however busy the machine is
+                play(endless_writer, endless, 9_000)
+            finally:
+                os._exit(1)
+        _, status = os.waitpid(child, 0)
+        print("killed" if os.WIFSIGNALED(status) else "ended", flush=True)

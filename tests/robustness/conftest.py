@@ -1,5 +1,4 @@
-import importlib.util
-import sys
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -7,16 +6,9 @@ import pytest
 
 
 @pytest.fixture(scope="session")
-def small() -> ModuleType:
+def small(module_at: Callable[[Path], ModuleType]) -> ModuleType:
     """The module of small cases."""
-    path = Path(__file__).with_name("small_runs.py")
-    spec = importlib.util.spec_from_file_location("sphframe_small_runs", path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
+    return module_at(Path(__file__).with_name("small_runs.py"))
 
 
 @pytest.fixture

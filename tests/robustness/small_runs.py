@@ -1,11 +1,14 @@
 """Small cases whose runs take a second, and comparison to the bit.
 
-Run as a program, it starts a process for each folder named on its input, which runs a case there, or continues it,
-until it is killed.
+Run as a program, it starts a process for each line ``STEPS DELAY FOLDER`` of its input. The process runs a case in the
+folder, or continues it, and is killed DELAY s of processor time after STEPS steps. With STEPS = 0 the delay counts from
+the start; with STEPS = -1 the run comes to its end.
 """
 
 import os
+import signal
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -86,6 +89,19 @@ def assert_same_bits(one: xr.Dataset, other: xr.Dataset) -> None:
         assert a.tobytes() == b.tobytes() or (a.dtype.kind == "O" and (a == b).all()), f"{name} differs"
 
 
+class At:
+    """A hook plugin that calls ``action(simulation)`` once, after the step of a given number."""
+
+    def __init__(self, step: int, action: Callable[[Any], object]) -> None:
+        self._step, self._action = step, action
+
+    @hookimpl
+    def sphframe_step_completed(self, simulation: Any) -> None:
+        """Call it at that step."""
+        if simulation.step == self._step:
+            self._action(simulation)
+
+
 class Recorder:
     """A hook plugin that writes the time of each step to a file at once."""
 
@@ -94,25 +110,46 @@ class Recorder:
 
     @hookimpl
     def sphframe_run_started(self, simulation: Any) -> None:
-        """Say where the run starts."""
+        """Write where the run starts."""
         os.write(self._file, f"start {simulation.time!r}\n".encode())
 
     @hookimpl
     def sphframe_step_completed(self, simulation: Any) -> None:
-        """Say how far it is."""
+        """Write how far the run is."""
         os.write(self._file, f"{simulation.time!r}\n".encode())
+
+
+class Killer:
+    """A hook plugin that kills the process at some moment after a number of steps of this process."""
+
+    def __init__(self, steps: int, delay: float) -> None:
+        self._steps, self._delay = steps, delay
+
+    @hookimpl
+    def sphframe_step_completed(self, simulation: Any) -> None:
+        """Count the step; start the timer after the last one."""
+        self._steps -= 1
+        if self._steps == 0:
+            die_after(self._delay)
+
+
+def die_after(delay: float) -> None:
+    """Let the system kill this process after ``delay`` s of processor time, however busy the machine is."""
+    signal.signal(signal.SIGPROF, signal.SIG_DFL)
+    signal.setitimer(signal.ITIMER_PROF, max(delay, 1e-6))
 
 
 CHECKPOINT_INTERVAL = 0.02
 
 
-def run_or_resume(folder: Path) -> None:
+def run_or_resume(folder: Path, hooks: list[object]) -> None:
     """Run the flume in ``folder``, or continue it there if it has a checkpoint."""
     output = folder / "run.nc"
     options: dict[str, Any] = {
         "threads": 1,
+        "checkpoint_every": None,
         "checkpoint_interval": CHECKPOINT_INTERVAL,
-        "hooks": [Recorder(folder / "steps.txt")],
+        "hooks": [Recorder(folder / "steps.txt"), *hooks],
     }
     if (folder / "run.nc.restart").exists():
         resume(output, **options)
@@ -122,10 +159,15 @@ def run_or_resume(folder: Path) -> None:
 
 if __name__ == "__main__":
     for line in sys.stdin:
+        steps, delay, folder = line.strip().split(" ", 2)
         child = os.fork()
         if child == 0:
-            print(os.getpid(), flush=True)
-            run_or_resume(Path(line.strip()))
-            os._exit(0)
+            try:
+                if steps == "0":
+                    die_after(float(delay))
+                run_or_resume(Path(folder), [Killer(int(steps), float(delay))])
+                os._exit(0)
+            finally:
+                os._exit(1)
         _, status = os.waitpid(child, 0)
-        print("complete" if status == 0 else "killed", flush=True)
+        print("killed" if os.WIFSIGNALED(status) else {0: "complete"}.get(status, "failed"), flush=True)

@@ -9,23 +9,11 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from sphframe import PluginError, SimulationError, hookimpl, open_dataset, run
+from sphframe import PluginError, SimulationError, open_dataset, run
 from sphframe.cli.app import app
 from sphframe.output.checkpoint import read_checkpoint
 
 pytestmark = pytest.mark.filterwarnings("ignore::sphframe.cases.CaseWarning")
-
-
-class Tamper:
-    """A hook plugin that changes the state after a step."""
-
-    def __init__(self, step: int, action: Callable[[Any], None]) -> None:
-        self._step, self._action = step, action
-
-    @hookimpl
-    def sphframe_step_completed(self, simulation: Any) -> None:
-        if simulation.step == self._step:
-            self._action(simulation)
 
 
 def put(column: str, value: float) -> Callable[[Any], None]:
@@ -100,7 +88,7 @@ def test_a_guard_stops_the_run_and_keeps_the_last_good_state(
             output=path,
             threads=1,
             checkpoint_interval=0.004,
-            hooks=[Tamper(at, action)],
+            hooks=[small.At(at, action)],
         )
     error = caught.value
     assert error.step is not None
@@ -220,7 +208,7 @@ def test_a_body_and_a_hook_that_raise(small: ModuleType, tmp_path: Path) -> None
         raise ZeroDivisionError("of my own")
 
     with pytest.raises(ZeroDivisionError, match="of my own"):
-        run(small.small_case(2), output=tmp_path / "a.nc", threads=1, hooks=[Tamper(3, fail)])
+        run(small.small_case(2), output=tmp_path / "a.nc", threads=1, hooks=[small.At(3, fail)])
     with open_dataset(tmp_path / "a.nc") as dataset:
         assert dataset.attrs["run_message"] == "ZeroDivisionError: of my own"
 
@@ -228,7 +216,7 @@ def test_a_body_and_a_hook_that_raise(small: ModuleType, tmp_path: Path) -> None
         object.__setattr__(simulation.boundary.bodies["seawall"], "mass", 0.0)
 
     with pytest.raises(SimulationError, match=r"body 'seawall' failed: SpringMass.motion .*ZeroDivisionError"):
-        run(small.small_case(2), output=tmp_path / "b.nc", threads=1, hooks=[Tamper(3, break_body)])
+        run(small.small_case(2), output=tmp_path / "b.nc", threads=1, hooks=[small.At(3, break_body)])
 
 
 HOOK = """

@@ -6,7 +6,6 @@ import pickle
 import shutil
 import signal
 import zipfile
-from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -15,7 +14,7 @@ import numpy as np
 import pytest
 
 import sphframe
-from sphframe import InputError, OutputError, Simulation, hookimpl, open_dataset, resume, run
+from sphframe import InputError, OutputError, Simulation, open_dataset, resume, run
 from sphframe.errors import ResumeWarning
 from sphframe.output import checkpoint
 from sphframe.output.checkpoint import read_checkpoint
@@ -25,18 +24,6 @@ pytestmark = pytest.mark.filterwarnings("ignore::sphframe.cases.CaseWarning")
 INTEGRATORS = [entry.name for entry in sphframe.available("integrators")]
 ADAPTIVE = {"probe_interval": 0.013}
 FIXED = {"time_step": 1.5e-3}
-
-
-class At:
-    """A hook plugin that does something once, after the step of a given number."""
-
-    def __init__(self, step: int, action: Callable[[Any], None]) -> None:
-        self._step, self._action = step, action
-
-    @hookimpl
-    def sphframe_step_completed(self, simulation: Any) -> None:
-        if simulation.step == self._step:
-            self._action(simulation)
 
 
 def interrupt(simulation: Any) -> None:
@@ -50,7 +37,7 @@ def terminate(simulation: Any) -> None:
 def interrupted(small: ModuleType, path: Path, step: int = 25, **options: Any) -> Path:
     """A run of the flume that was interrupted after a step."""
     with pytest.raises(KeyboardInterrupt):
-        run(small.small_case(2), output=path, threads=1, hooks=[At(step, interrupt)], **options)
+        run(small.small_case(2), output=path, threads=1, hooks=[small.At(step, interrupt)], **options)
     return path
 
 
@@ -89,11 +76,11 @@ def test_interrupted_and_resumed_files_are_the_same(small: ModuleType, tmp_path:
     undisturbed = run(small.small_case(2), output=tmp_path / "whole.nc", threads=1)
     path = tmp_path / "run.nc"
     with pytest.raises(KeyboardInterrupt):
-        run(small.small_case(2), output=path, threads=1, hooks=[At(17, stop)])
+        run(small.small_case(2), output=path, threads=1, hooks=[small.At(17, stop)])
     with open_dataset(path) as dataset:
         assert (dataset.attrs["run_status"], dataset.attrs["run_message"]) == ("failed", "interrupted")
     with pytest.raises(KeyboardInterrupt):
-        resume(path, threads=1, hooks=[At(40, stop)])
+        resume(path, threads=1, hooks=[small.At(40, stop)])
     resumed = resume(tmp_path / "run.nc.restart", threads=1)
     small.assert_same_bits(undisturbed.dataset, resumed.dataset)
     assert resumed.dataset.attrs["completed"] == "yes"
@@ -116,9 +103,9 @@ def test_particles_that_were_removed_stay_removed(small: ModuleType, tmp_path: P
         top = np.argsort(rows[: simulation.fluid_count, columns.position.start + 1])[-3:]
         rows[top, columns.velocity.start + 1] = 3.0
 
-    whole = run(case, output=tmp_path / "a.nc", threads=1, hooks=[At(10, splash)])
+    whole = run(case, output=tmp_path / "a.nc", threads=1, hooks=[small.At(10, splash)])
     with pytest.raises(KeyboardInterrupt):
-        run(case, output=tmp_path / "b.nc", threads=1, hooks=[At(10, splash), At(30, interrupt)])
+        run(case, output=tmp_path / "b.nc", threads=1, hooks=[small.At(10, splash), small.At(30, interrupt)])
     resumed = resume(tmp_path / "b.nc", threads=1)
     assert whole.dataset.particles_removed.values[-1] >= 3
     assert int(np.isnan(whole.dataset.density.values[-1]).sum()) == whole.dataset.particles_removed.values[-1]
@@ -131,7 +118,7 @@ def test_a_second_signal_interrupts_within_the_step(small: ModuleType, tmp_path:
         interrupt(simulation)
 
     with pytest.raises(KeyboardInterrupt):
-        run(small.small_case(2), output=tmp_path / "run.nc", threads=1, hooks=[At(5, twice)])
+        run(small.small_case(2), output=tmp_path / "run.nc", threads=1, hooks=[small.At(5, twice)])
 
 
 def test_signal_handlers_are_put_back(small: ModuleType, tmp_path: Path) -> None:
@@ -153,7 +140,8 @@ def test_a_crash_while_writing_leaves_the_checkpoint_before(
     with pytest.raises(
         OutputError, match=r"cannot write the checkpoint .*No space left on device.* are intact.*resume"
     ):
-        run(small.small_case(2), output=path, threads=1, checkpoint_interval=0.01, hooks=[At(30, break_it)])
+        run(small.small_case(2), output=path, threads=1, checkpoint_every=None, checkpoint_interval=0.01,
+            hooks=[small.At(30, break_it)])  # fmt: skip
     monkeypatch.undo()
     before = read_checkpoint(tmp_path / "run.nc.restart")
     assert 0.01 <= before.time < 0.03
@@ -209,7 +197,7 @@ def test_an_older_copy_of_the_output_is_refused(small: ModuleType, tmp_path: Pat
     path = interrupted(small, tmp_path / "run.nc", 5)
     early = path.read_bytes()
     with pytest.raises(KeyboardInterrupt):
-        resume(path, threads=1, hooks=[At(60, interrupt)])
+        resume(path, threads=1, hooks=[small.At(60, interrupt)])
     path.write_bytes(early)
     with pytest.raises(OutputError, match="holds less than its checkpoint counts"):
         resume(path, threads=1)
@@ -224,7 +212,7 @@ def test_a_running_output_cannot_be_resumed(small: ModuleType, tmp_path: Path) -
             resume(path, threads=1)
         errors.append(caught.value)
 
-    resume(path, threads=1, checkpoint_interval=1e-9, hooks=[At(40, resume_too)])
+    resume(path, threads=1, checkpoint_interval=1e-9, hooks=[small.At(40, resume_too)])
     assert errors
 
 
@@ -290,8 +278,8 @@ def test_code_named_by_address_needs_trust(small: ModuleType, tmp_path: Path) ->
     address = "sphframe.kernels.wendland:WendlandC2"
     with pytest.raises(KeyboardInterrupt):
         run("hydrostatic-tank", output=path, threads=1, particle_spacing=0.03, tank_length=0.3, kernel=address,
-            hooks=[At(5, interrupt)])  # fmt: skip
+            hooks=[small.At(5, interrupt)])  # fmt: skip
     with pytest.raises(InputError, match="names code by its address"):
         resume(path, threads=1)
     with pytest.raises(KeyboardInterrupt):
-        resume(path, threads=1, trusted=True, hooks=[At(10, interrupt)])
+        resume(path, threads=1, trusted=True, hooks=[small.At(10, interrupt)])
