@@ -15,8 +15,8 @@ from sphframe.simulation import Simulation
 
 __all__ = ["MemoryCost", "array_bytes", "measure_memory"]
 
-_OWNERS = ("lists", "boundary", "system")
-"""in this order: the system refers to the others, which are counted for themselves"""
+_OWNERS = ("lists", "boundary")
+"""parts of the system that are counted separately"""
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,8 @@ def measure_here(particles: int, dim: int) -> dict[str, Any]:
     peak = _resident("VmHWM")
     n = simulation.fluid_count
     counted: set[int] = set()
-    owned = {name: array_bytes(getattr(simulation, name), counted) for name in _OWNERS}
+    owned = {name: array_bytes(getattr(simulation.system, name), counted) for name in _OWNERS}
+    owned["system"] = array_bytes(simulation.system, counted)
     owned["else"] = array_bytes(simulation, counted)
     return {
         "dimension": dim,

@@ -14,7 +14,7 @@ from sphframe.benchmark.stopwatch import PARTS, Stopwatch, watch_steps
 from sphframe.benchmark.timing import Spread, loops_for, seconds
 from sphframe.output import NetCDFWriter
 from sphframe.simulation import Simulation
-from sphframe.simulation.guards import check_promises
+from sphframe.simulation.guards import check_traits
 
 __all__ = ["State", "StepCost", "measure_steps"]
 
@@ -103,7 +103,7 @@ class _Bench:
 
     def __init__(self, simulation: Simulation, frame_interval: float, folder: Path) -> None:
         self.simulation = simulation
-        self.evaluations: int = simulation.components["integrator"].evaluations
+        self.evaluations: int = simulation.components.integrator.evaluations
         self.state = simulation.state()
         self.steps = min(max(round(_WINDOW / seconds(simulation.advance, 3)), _FEWEST_STEPS), _MOST_STEPS)
         self.watch: Stopwatch = watch_steps(simulation)
@@ -122,7 +122,7 @@ class _Bench:
         if bare is not None:
             self._alone |= {"bare gradient": bare.find_gradient, "bare rates": bare.find_rates}
         self._alone |= {
-            "list build": simulation._find_neighbours,
+            "list build": simulation.system.find_neighbours,
             "sample": lambda: self._writer.sphframe_probes_due(simulation),
             "frame": self._write_frame,
         }
@@ -139,7 +139,7 @@ class _Bench:
         for _ in range(self.steps):
             self.simulation.advance()
         spent = {part: 1e-9 * self.watch.spent[part] / self.steps for part in PARTS}
-        self.builds = self.watch.calls["_find_neighbours"]
+        self.builds = self.watch.calls["find_neighbours"]
         alone = {name: seconds(function, self._loops[name]) for name, function in self._alone.items()}
         case, step = self.simulation.case, self.simulation.time_step
         output = step * (alone["sample"] / case.probe_interval + alone["frame"] / self._frame_interval)
@@ -150,7 +150,7 @@ class _Bench:
     def _write_frame(self) -> None:
         simulation = self.simulation
         chosen = simulation.components
-        check_promises(simulation.system, chosen["interpolator"], chosen["kernel"], simulation.case)
+        check_traits(simulation.system, chosen.interpolator, chosen.kernel, simulation.case)
         self._writer.sphframe_frame_due(simulation)
 
     def cost(self, threads: int, state: State) -> StepCost:

@@ -61,7 +61,7 @@ def watch_steps(simulation: Simulation) -> Stopwatch:
     """Return a stopwatch on the parts of the steps of ``simulation``."""
     system, stopwatch = simulation.system, Stopwatch()
     stopwatch.watch(simulation, "advance", "integration")
-    stopwatch.watch(simulation, "_find_neighbours", "neighbour list")
+    stopwatch.watch(system, "find_neighbours", "neighbour list")
     stopwatch.watch(system, "move_walls", "boundary")
     stopwatch.watch(system, "update_pressure", "integration")
     stopwatch.watch(system, "fill_ghosts", "boundary")

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sphframe.geometry import BoxWall, PolygonWall
+from sphframe.geometry import BoxWall, PolygonWall, directions_to_world, to_world
 from sphframe.interfaces import Motion
 
 __all__ = ["Corners"]
@@ -63,10 +63,9 @@ class Corners:
             point, onward, normal = end.point, end.onward, end.normal
             body = self._wall_body[end.wall]
             if body >= 0:
-                shift, angle = motions[body].position[:2], motions[body].position[2]
-                turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-                centre = self._centres[body]
-                point, onward, normal = centre + shift + turn @ (point - centre), turn @ onward, turn @ normal
+                position_of_body = motions[body].position
+                point = to_world(point[None], position_of_body, self._centres[body])[0]
+                onward, normal = directions_to_world(np.array([onward, normal]), position_of_body)
             offset = position - point
             beyond, behind = offset @ onward, offset @ normal
             here = (beyond > 0.0) & (beyond < self._reach) & (behind > 0.0) & (behind < self._reach)

@@ -4,7 +4,7 @@
 
     x = c + X + R(angle) (x0 - c),    u = U + omega x r,    a = A + alpha x r - omega^2 r,    r = x - c - X
 
-with the body's centre c as drawn, displacement X and, in 2-D, its angle. The reflection matrices turn along.
+with the body's centre c as drawn, displacement X and, in 2-D, its angle. The reflection matrices turn with the body.
 """
 
 import math
@@ -16,16 +16,14 @@ __all__ = ["move_ghosts"]
 
 @numba.njit(cache=True, error_model="numpy")
 def move_ghosts(  # type: ignore[no-untyped-def]
-    drawn, drawn_mirror, drawn_reflection, ghost_body, centres, positions, velocities, accelerations, remembered,
-    points, remembered_points, position, mirror, reflection, velocity, acceleration,
+    drawn, drawn_mirror, drawn_reflection, ghost_body, centres, positions, velocities, accelerations,
+    position, mirror, reflection, velocity, acceleration,
 ):  # fmt: skip
-    """Write the last five arrays for ghosts whose ``ghost_body`` is not -1; return the largest displacement, m.
+    """Write the last five arrays for ghosts whose ``ghost_body`` is not -1.
 
-    ``positions``, ``velocities``, ``accelerations`` (bodies, 3) are generalised coordinates; the displacement is that
-    of ghosts from ``remembered`` and of ``points``, one of the arrays written, from ``remembered_points`` (g, dim).
+    ``positions``, ``velocities``, ``accelerations`` (bodies, 3) are generalised coordinates.
     """
     dim = drawn.shape[1]
-    largest = 0.0
     for g in range(drawn.shape[0]):
         b = ghost_body[g]
         if b < 0:
@@ -67,10 +65,3 @@ def move_ghosts(  # type: ignore[no-untyped-def]
                 mirror[g, k] = drawn_mirror[g, k] + positions[b, k]
                 velocity[g, k] = velocities[b, k]
                 acceleration[g, k] = accelerations[b, k]
-        distance2 = 0.0
-        point_distance2 = 0.0
-        for k in range(dim):
-            distance2 += (position[g, k] - remembered[g, k]) ** 2
-            point_distance2 += (points[g, k] - remembered_points[g, k]) ** 2
-        largest = max(largest, distance2, point_distance2)
-    return math.sqrt(largest)

@@ -9,6 +9,7 @@ nothing has moved further than that against the walls, and no two particles near
 """
 
 import math
+from collections.abc import Mapping
 
 import numba
 import numpy as np
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 
 from sphframe.neighbours.approach import relative_displacement
 from sphframe.neighbours.cells import Grid, bounding_box, cell_number, grid_around, row_number, sort_by_cell
+from sphframe.neighbours.motion import LargestMotion, largest_motion, largest_wall_displacement
 
 __all__ = ["NeighbourLists"]
 
@@ -23,16 +25,20 @@ Array = NDArray[np.float64]
 
 _PARTS = 2
 """of the rows that are sorted, or looked at, at the same time"""
+_NO_ORDER = np.zeros(0, np.int64)
+"""for rows that are sorted by cell"""
 
 
 class NeighbourLists:
     """Neighbour lists of the fluid particles and of the boundary's evaluation points.
 
+    They hold the positions from which they were built, and so know how long they remain valid.
+
     Attributes
     ----------
     cluster: number of particles that share a list; the list of a single particle holds exactly its neighbours, that of
         several also the members of the cluster themselves.
-    width: of the rows of the grid, m: the edge of the cube that a cluster should fill.
+    width: width of the rows of the cell grid, m: the edge of the cube that a cluster should fill.
     fluid: (clusters, capacity) uint32; row c holds ``fluid_counts[c]`` fluid neighbours, then ``ghost_counts[c]``
         ghosts, as indices of rows.
     points: (g, capacity) uint32 fluid neighbours of each evaluation point, ``point_counts`` (g,) of them.
@@ -61,9 +67,11 @@ class NeighbourLists:
         self.ghost_counts = np.zeros(clusters, np.uint32)
         self.points = np.empty((ghost_count, 8), np.uint32)
         self.point_counts = np.zeros(ghost_count, np.uint32)
-        self.grid = Grid(np.zeros(3), np.ones(3), (1, 1, 1))
-        self.starts = np.zeros(2, np.int64)
-        self.rebuilds = 0
+        self._fluid_reference = np.zeros((fluid_count, dim))
+        self._ghost_reference = np.zeros((ghost_count, dim))
+        self._point_reference = np.zeros((ghost_count, dim))
+        self._grid = Grid(np.zeros(3), np.ones(3), (1, 1, 1))
+        self._starts = np.zeros(2, np.int64)
         self._cells = np.zeros(fluid_count, np.int64)
         self._order = np.zeros(fluid_count, np.int64)
         self._ghost_cells = np.zeros(ghost_count, np.int64)
@@ -73,6 +81,12 @@ class NeighbourLists:
         self._lower, self._upper = np.zeros(dim), np.zeros(dim)
         self._boxes = np.zeros((_PARTS, 1, 6))
 
+    def resized(self, fluid_count: int) -> "NeighbourLists":
+        """Return lists of the same kind for another number of fluid particles, not yet built."""
+        return NeighbourLists(
+            self.dim, fluid_count, self.ghost_count, self.support, self.skin, self.cluster, self.width
+        )
+
     @property
     def radius(self) -> float:
         """Search radius, m."""
@@ -81,49 +95,86 @@ class NeighbourLists:
     def sort(self, rows: Array) -> NDArray[np.int64]:
         """Make the grid around the fluid ``rows`` (n, width) and return the order in which the rows must be put."""
         bounding_box(rows, self.fluid_count, self.dim, self._lower, self._upper)
-        self.grid = grid_around(self._lower, self._upper, self.width, 1.1 * self.radius)  # with all ghosts that matter
-        if self._tallies.shape[1] != self.grid.count:
-            self._tallies = np.zeros((_PARTS, self.grid.count), np.int64)
-            self.starts = np.zeros(self.grid.count + 1, np.int64)
-            self._ghost_starts = np.zeros(self.grid.count + 1, np.int64)
-        self._sort(rows, self._cells, self.starts, self._order)
+        self._grid = grid_around(self._lower, self._upper, self.width, 1.1 * self.radius)  # with all ghosts that matter
+        if self._tallies.shape[1] != self._grid.count:
+            self._tallies = np.zeros((_PARTS, self._grid.count), np.int64)
+            self._starts = np.zeros(self._grid.count + 1, np.int64)
+            self._ghost_starts = np.zeros(self._grid.count + 1, np.int64)
+        self._sort(rows, self._cells, self._starts, self._order)
         return self._order
 
     def _sort(self, rows: Array, cells: NDArray[np.int64], starts: NDArray[np.int64], order: NDArray[np.int64]) -> None:
-        grid = self.grid
+        grid = self._grid
         sort_by_cell(rows, self.dim, grid.origin, grid.cell, grid.shape, cells, self._tallies, starts, order)
 
     def build(self, rows: Array, evaluation_points: Array) -> None:
         """Build the lists for ``rows`` (n + g, width), whose fluid part is in the order that :meth:`sort` returned."""
-        grid, n = self.grid, self.fluid_count
+        grid, n = self._grid, self.fluid_count
         self._sort(rows[n:], self._ghost_cells, self._ghost_starts, self._ghost_order)
         while True:
             longest = _list_particles(
                 rows, n, self.cluster, self.dim, self.radius, grid.origin, grid.cell, grid.shape,
-                self.starts, self._ghost_starts, self._ghost_order, self.fluid, self.fluid_counts, self.ghost_counts,
+                self._starts, _NO_ORDER, self._ghost_starts, self._ghost_order,
+                self.fluid, self.fluid_counts, self.ghost_counts,
             )  # fmt: skip
             if longest < self.fluid.shape[1]:
                 break
             self.fluid = np.empty((len(self.fluid), _capacity(longest)), np.uint32)
         self.points = self._around(evaluation_points, rows, self.points, self.point_counts)
-        self.rebuilds += 1
+        self._fluid_reference[:] = rows[:n, : self.dim]
+        self._ghost_reference[:] = rows[n:, : self.dim]
+        self._point_reference[:] = evaluation_points
 
-    def last(self, rows: Array, reference: Array, moved: float, walls: float, ahead: float) -> bool:
-        """Return whether the lists stay complete for fluid ``rows`` that lay at ``reference`` (n, dim) when they were
-        built, have ``moved`` at most so much since, m, and will move ``ahead`` more at most, and for walls that will
-        have moved by ``walls`` at most."""
-        if moved + ahead + walls > self.skin:
+    def largest_motion(self, rows: Array) -> LargestMotion:
+        """Return the largest speed of the fluid ``rows``, and their largest displacement since :meth:`build`."""
+        return LargestMotion(*largest_motion(rows, self._fluid_reference, self.dim))
+
+    def remain_valid(
+        self, rows: Array, evaluation_points: Array, motion: LargestMotion, *, wall_speed: float, interval: float
+    ) -> bool:
+        """Return whether the lists will still hold all neighbours after a further ``interval``.
+
+        Parameters
+        ----------
+        rows: (n + g, width) fluid and ghosts at present; ``evaluation_points`` (g, dim), m.
+        motion: of the fluid, from :meth:`largest_motion`.
+        wall_speed: largest speed of a wall, m/s.
+        interval: time for which everything is taken to keep its speed, s.
+        """
+        ahead = motion.speed * interval
+        walls = wall_speed * interval + largest_wall_displacement(
+            rows[self.fluid_count :], self._ghost_reference, evaluation_points, self._point_reference
+        )
+        if motion.displacement + ahead + walls > self.skin:
             return False
-        if 2.0 * (moved + ahead) <= self.skin:
+        if 2.0 * (motion.displacement + ahead) <= self.skin:
             return True
+        return self._relative_displacement(rows) + 2.0 * ahead <= self.skin
+
+    def _relative_displacement(self, rows: Array) -> float:
         edge = self.radius + self.skin  # what lay further apart cannot have come within the support
         shape = np.ones(3, np.int64)
         shape[: self.dim] = np.floor((self._upper - self._lower) / edge) + 3
         cubes = int(shape.prod())
         if self._boxes.shape[1] < cubes:
             self._boxes = np.empty((_PARTS, cubes, 6))
-        apart = relative_displacement(rows, reference, self.dim, self._lower, edge, shape, self._boxes[:, :cubes])
-        return bool(apart + 2.0 * ahead <= self.skin)
+        boxes = self._boxes[:, :cubes]
+        return float(relative_displacement(rows, self._fluid_reference, self.dim, self._lower, edge, shape, boxes))
+
+    def state(self) -> dict[str, Array]:
+        """Return copies of the positions from which the lists were built; they determine the lists."""
+        return {
+            "fluid": self._fluid_reference.copy(),
+            "ghosts": self._ghost_reference.copy(),
+            "points": self._point_reference.copy(),
+        }
+
+    def restore(self, state: Mapping[str, Array], rows: Array) -> None:
+        """Build the lists that :meth:`state` describes; the positions in ``rows`` (n + g, width) are overwritten."""
+        rows[: self.fluid_count, : self.dim] = state["fluid"]
+        rows[self.fluid_count :, : self.dim] = state["ghosts"]
+        self.sort(rows)  # the particles are in order; this makes the cell grid
+        self.build(rows, state["points"])
 
     def around(self, points: Array, rows: Array) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
         """Return lists (k, capacity) of the fluid near any ``points`` (k, dim) and their lengths (k,)."""
@@ -134,10 +185,11 @@ class NeighbourLists:
         self, points: Array, rows: Array, lists: NDArray[np.uint32], counts: NDArray[np.uint32]
     ) -> NDArray[np.uint32]:
         """List the fluid near ``points`` in ``lists``, or in a longer array where that is too short."""
-        grid = self.grid
+        grid = self._grid
         while True:
             longest = _list_points(
-                points, rows, self.dim, self.radius, grid.origin, grid.cell, grid.shape, self.starts, lists, counts,
+                points, rows, self.dim, self.radius, grid.origin, grid.cell, grid.shape,
+                self._starts, _NO_ORDER, lists, counts,
             )  # fmt: skip
             if longest < lists.shape[1]:
                 return lists
@@ -208,15 +260,58 @@ def _select(rows, members, begin, end, first, last, dim, limit):  # type: ignore
     return kept
 
 
+@numba.njit(error_model="numpy")
+def _collect(  # type: ignore[no-untyped-def]
+    rows, dim, x0, x1, y0, y1, z0, z1, radius, origin, cell, shape, starts, order, first, members, found
+):
+    """List in ``members``, from place ``found`` on, what is within ``radius`` of the box ``x0`` .. ``z1``.
+
+    The members of cell c are the rows ``first + order[starts[c]:starts[c + 1]]``, or ``starts[c]`` .. ``starts[c + 1]``
+    themselves where ``order`` is empty. Returns the number of members; those without room are counted only.
+    """
+    reach = radius * (1.0 + 1e-9)
+    limit = radius * radius
+    room = members.shape[0] - 1  # the last place is scratch
+    if dim == 2:
+        a0, a1 = 0, 0
+        b0, b1 = _cell_range(x0 - reach, x1 + reach, origin[1], cell[1], shape[1])
+    else:
+        a0, a1 = _cell_range(x0 - reach, x1 + reach, origin[0], cell[0], shape[0])
+        b0, b1 = _cell_range(y0 - reach, y1 + reach, origin[1], cell[1], shape[1])
+    for a in range(a0, a1 + 1):
+        across = _reach(reach, x0, x1, origin[0], cell[0], a) if dim == 3 else reach
+        for b in range(b0, b1 + 1):
+            if dim == 3:
+                along = _reach(across, y0, y1, origin[1], cell[1], b)
+            else:
+                along = _reach(across, x0, x1, origin[1], cell[1], b)
+            c0, c1 = _cell_range(z0 - along, z1 + along, origin[2], cell[2], shape[2])
+            if c1 < c0:
+                continue
+            row = row_number(shape, a, b)
+            left = cell_number(shape, row, c0)
+            right = cell_number(shape, row, c1)
+            begin, end = np.uint64(starts[min(left, right)]), np.uint64(starts[max(left, right) + 1])
+            if order.shape[0] == 0:
+                for j in range(begin, end):
+                    members[min(found, room)] = j  # stays only if it is near, without a branch that is hard to predict
+                    found += 1 if _box_distance2(rows, j, dim, x0, x1, y0, y1, z0, z1) < limit else 0
+            else:
+                for k in range(begin, end):
+                    row_of_k = np.uint64(order[k]) + np.uint64(first)
+                    members[min(found, room)] = row_of_k
+                    found += 1 if _box_distance2(rows, row_of_k, dim, x0, x1, y0, y1, z0, z1) < limit else 0
+    return found
+
+
 @numba.njit(parallel=True, cache=True, error_model="numpy")
 def _list_particles(  # type: ignore[no-untyped-def]
-    rows, n, cluster, dim, radius, origin, cell, shape, starts, ghost_starts, ghost_order,
+    rows, n, cluster, dim, radius, origin, cell, shape, starts, no_order, ghost_starts, ghost_order,
     lists, counts, ghost_counts,
 ):  # fmt: skip
     """List the neighbours of each cluster; returns the longest list, which must stay below the capacity."""
-    reach = radius * (1.0 + 1e-9)
     limit = radius * radius
-    room = lists.shape[1] - 1  # the last place is scratch
+    room = lists.shape[1] - 1
     longest = 0
     for c in numba.prange(counts.shape[0]):
         first = c * cluster
@@ -233,84 +328,33 @@ def _list_particles(  # type: ignore[no-untyped-def]
             z1 = max(z1, rows[i, dim - 1])
         alone = last - first == 1
         wide = max(max(x1 - x0, y1 - y0), z1 - z0) > 1.5 * radius
-        if dim == 2:
-            a0, a1 = 0, 0
-            b0, b1 = _cell_range(x0 - reach, x1 + reach, origin[1], cell[1], shape[1])
-        else:
-            a0, a1 = _cell_range(x0 - reach, x1 + reach, origin[0], cell[0], shape[0])
-            b0, b1 = _cell_range(y0 - reach, y1 + reach, origin[1], cell[1], shape[1])
-        found = 0
         members = lists[c]
-        for kind in range(2):
-            for a in range(a0, a1 + 1):
-                across = _reach(reach, x0, x1, origin[0], cell[0], a) if dim == 3 else reach
-                for b in range(b0, b1 + 1):
-                    if dim == 3:
-                        along = _reach(across, y0, y1, origin[1], cell[1], b)
-                    else:
-                        along = _reach(across, x0, x1, origin[1], cell[1], b)
-                    c0, c1 = _cell_range(z0 - along, z1 + along, origin[2], cell[2], shape[2])
-                    if c1 < c0:
-                        continue
-                    row = row_number(shape, a, b)
-                    left = cell_number(shape, row, c0)
-                    right = cell_number(shape, row, c1)
-                    if kind == 0:
-                        begin, end = starts[min(left, right)], starts[max(left, right) + 1]
-                        for j in range(np.uint64(begin), np.uint64(end)):
-                            members[min(found, room)] = j  # stays only if it is near: no branch to be mispredicted
-                            found += 1 if _box_distance2(rows, j, dim, x0, x1, y0, y1, z0, z1) < limit else 0
-                    else:
-                        begin, end = ghost_starts[min(left, right)], ghost_starts[max(left, right) + 1]
-                        for k in range(np.uint64(begin), np.uint64(end)):
-                            ghost = np.uint64(ghost_order[k]) + np.uint64(n)
-                            members[min(found, room)] = ghost
-                            found += 1 if _box_distance2(rows, ghost, dim, x0, x1, y0, y1, z0, z1) < limit else 0
-            if (wide or alone) and found <= room:
-                found = _select(rows, members, counts[c] if kind == 1 else 0, found, first, last, dim, limit)
-            if kind == 0:
-                counts[c] = found
+        found = _collect(
+            rows, dim, x0, x1, y0, y1, z0, z1, radius, origin, cell, shape, starts, no_order, 0, members, 0
+        )  # fmt: skip
+        if (wide or alone) and found <= room:
+            found = _select(rows, members, 0, found, first, last, dim, limit)
+        counts[c] = found
+        found = _collect(
+            rows, dim, x0, x1, y0, y1, z0, z1, radius, origin, cell, shape, ghost_starts, ghost_order, n, members, found
+        )  # fmt: skip
+        if (wide or alone) and found <= room:
+            found = _select(rows, members, counts[c], found, first, last, dim, limit)
         ghost_counts[c] = found - counts[c]
         longest = max(longest, found)
     return longest
 
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
-def _list_points(points, rows, dim, radius, origin, cell, shape, starts, lists, counts):  # type: ignore[no-untyped-def]
+def _list_points(points, rows, dim, radius, origin, cell, shape, starts, no_order, lists, counts):  # type: ignore[no-untyped-def]
     """List the fluid neighbours of each point; returns the longest list, which must stay below the capacity."""
-    reach = radius * (1.0 + 1e-9)
-    limit = radius * radius
-    room = lists.shape[1] - 1
     longest = 0
     for i in numba.prange(points.shape[0]):
         x = points[i, 0]
         y = points[i, 1]
         z = points[i, dim - 1]
-        if dim == 2:
-            a0, a1 = 0, 0
-            b0, b1 = _cell_range(x - reach, x + reach, origin[1], cell[1], shape[1])
-        else:
-            a0, a1 = _cell_range(x - reach, x + reach, origin[0], cell[0], shape[0])
-            b0, b1 = _cell_range(y - reach, y + reach, origin[1], cell[1], shape[1])
-        found = 0
-        members = lists[i]
-        for a in range(a0, a1 + 1):
-            across = _reach(reach, x, x, origin[0], cell[0], a) if dim == 3 else reach
-            for b in range(b0, b1 + 1):
-                if dim == 3:
-                    along = _reach(across, y, y, origin[1], cell[1], b)
-                else:
-                    along = _reach(across, x, x, origin[1], cell[1], b)
-                c0, c1 = _cell_range(z - along, z + along, origin[2], cell[2], shape[2])
-                if c1 < c0:
-                    continue
-                row = row_number(shape, a, b)
-                left = cell_number(shape, row, c0)
-                right = cell_number(shape, row, c1)
-                begin, end = starts[min(left, right)], starts[max(left, right) + 1]
-                for j in range(np.uint64(begin), np.uint64(end)):
-                    members[min(found, room)] = j
-                    found += 1 if _box_distance2(rows, j, dim, x, x, y, y, z, z) < limit else 0
-        counts[i] = found
-        longest = max(longest, found)
+        counts[i] = _collect(
+            rows, dim, x, x, y, y, z, z, radius, origin, cell, shape, starts, no_order, 0, lists[i], 0
+        )  # fmt: skip
+        longest = max(longest, counts[i])
     return longest

@@ -27,7 +27,7 @@ from sphframe.output.provenance import distributions, software
 
 __all__ = ["Checkpoint", "changed_versions", "checkpoint_path", "read_checkpoint", "write_checkpoint"]
 
-_FORMAT = 1
+_FORMAT = 2
 _HEADER = "checkpoint.json"
 _TYPES = {"f": "<f8", "i": "<i8"}
 

@@ -1,14 +1,11 @@
-"""Simulation: guards, which stop a run that has gone wrong before anything of it is written.
+"""Simulation: guards, which stop a run that has gone wrong before its state is written.
 
-They look at every state between two steps. NaN, a vanishing time step and a component that breaks its word always stop
-a run; for the rest a case says what is to happen (:class:`sphframe.cases.Guards`).
+Every state between two steps is checked. NaN, a time step that has collapsed and a component that violates its declared
+traits always stop a run; for the rest a case says what is to happen (:class:`sphframe.cases.Guards`).
 """
 
 import math
-import traceback
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import Any, NamedTuple, NoReturn
+from typing import NamedTuple, NoReturn
 
 import numba
 import numpy as np
@@ -16,13 +13,13 @@ from numpy.typing import NDArray
 
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.operator import operator
-from sphframe.cases.case import Case
-from sphframe.errors import BrokenPluginError, SimulationError, SphframeError
-from sphframe.interfaces import EvaluationPoint, Status
-from sphframe.registry import COMPONENT_KINDS, Entry, available, find
+from sphframe.cases import Case
+from sphframe.errors import SimulationError
+from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint, Kernel, Status
+from sphframe.registry import available
 from sphframe.simulation.system import FluidSystem
 
-__all__ = ["Watch", "check_promises", "check_time_step", "naming_component", "naming_hook", "watch"]
+__all__ = ["Tolerated", "check_state", "check_time_step", "check_traits"]
 
 Array = NDArray[np.float64]
 
@@ -32,50 +29,45 @@ _ROUND_OFF = 1e-8
 _STEP_IS_TOO_LONG = "a time step above the stability limit (set a smaller courant_number or time_step)"
 
 
-class Watch(NamedTuple):
-    """What one look at the fluid found: speed in m/s, ``moved`` in m since the neighbour search."""
+class Tolerated(NamedTuple):
+    """What a check found wrong with the fluid, and the case tolerates."""
 
-    speed: float
-    moved: float
     outside: NDArray[np.bool_] | None
     """(n,) particles that have left the domain and are to be removed"""
-    densities: int
-    """number of particles with a density outside the band"""
+    densities_outside: int
+    """number of particles whose density is out of range"""
 
 
-def watch(
-    system: FluidSystem, reference: Array, ids: NDArray[np.int64], case: Case, lower: Array, upper: Array
-) -> Watch:
-    """Look at all particles, ghosts and bodies.
+def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array) -> Tolerated:
+    """Check all particles and ghosts.
 
     Parameters
     ----------
-    reference: (n, dim) positions at the last neighbour search; ``ids`` (n,) the particles' original numbers.
-    lower, upper: (dim,) corners of the domain.
+    lower, upper: (dim,) corners of the domain, m.
 
     Raises
     ------
-    SimulationError: when something is wrong that the case does not tolerate. Its time and step are left to the caller.
+    SimulationError: when something is wrong that the case does not tolerate; the caller adds time and step.
     """
-    guards, columns, boundary = case.guards, system.columns, system.boundary
+    guards, columns = case.guards, system.columns
     rows, n = system.rows, system.fluid_count
     lowest, highest = (factor * case.reference_density for factor in guards.density_band)
-    speed2, moved2, broken, outside, first_outside, astray, first_astray = _watch_fluid(
-        rows, reference, case.dimension, lower, upper, lowest, highest
+    broken, outside, first_outside, out_of_range, first_out_of_range = _check_fluid(
+        rows, n, case.dimension, lower, upper, lowest, highest
     )
 
     def stop(index: int, what: str, causes: str) -> NoReturn:
         row = rows[index]
         velocity = ", ".join(f"{u:.4g}" for u in row[columns.velocity])
         raise SimulationError(
-            f"particle {ids[index]} {what} (velocity ({velocity}) m/s, density {row[columns.density]:.6g} kg/m^3);"
-            f" likely causes: {causes}",
+            f"particle {system.ids[index]} {what} (velocity ({velocity}) m/s, density {row[columns.density]:.6g}"
+            f" kg/m^3); likely causes: {causes}",
             place=tuple(float(x) for x in row[columns.position]),
         )
 
     if broken < n:
         stop(broken, "has a state that is not finite", f"{_STEP_IS_TOO_LONG}, or a component that returned NaN")
-    _watch_ghosts(system, case)
+    _check_ghosts(system, case)
     if outside and guards.domain == "stop":
         stop(
             first_outside,
@@ -83,17 +75,16 @@ def watch(
             f"{_STEP_IS_TOO_LONG}, walls that leak or end too low, or a sound speed too low for the flow; to remove and"
             ' count such particles instead, set guards.domain = "remove"',
         )
-    if astray and guards.density == "stop":
+    if out_of_range and guards.density == "stop":
         stop(
-            first_astray,
+            first_out_of_range,
             f"has a density outside the band {lowest:g} to {highest:g} kg/m^3",
             f"{_STEP_IS_TOO_LONG}, a sound speed too low for the flow, or overlapping walls; to go on and count such"
             ' particles, set guards.density = "count", or widen guards.density_band',
         )
     if guards.fallbacks == "stop":
-        _check_fallbacks(boundary, case)
-    gone = _outside(rows[:n, columns.position], lower, upper) if outside else None
-    return Watch(math.sqrt(speed2), math.sqrt(moved2), gone, astray)
+        _check_fallbacks(system.boundary, case)
+    return Tolerated(_outside(rows[:n, columns.position], lower, upper) if outside else None, out_of_range)
 
 
 def _outside(position: Array, lower: Array, upper: Array) -> NDArray[np.bool_]:
@@ -101,7 +92,7 @@ def _outside(position: Array, lower: Array, upper: Array) -> NDArray[np.bool_]:
     return gone
 
 
-def _watch_ghosts(system: FluidSystem, case: Case) -> None:
+def _check_ghosts(system: FluidSystem, case: Case) -> None:
     boundary = system.boundary
     g = _first_bad_ghost(system.rows, system.fluid_count, case.dimension, boundary.statuses, len(Status))
     if g < boundary.count:
@@ -140,8 +131,8 @@ def check_time_step(step: float, at_rest: float, speed: float) -> None:
         )
 
 
-def check_promises(system: FluidSystem, interpolator: Any, kernel: Any, case: Case) -> None:
-    """Check at the present ghosts that the weights keep what the method's traits promise.
+def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator, kernel: Kernel, case: Case) -> None:
+    """Check at the present ghosts that the weights have the properties that the method's traits declare.
 
     Raises
     ------
@@ -181,76 +172,10 @@ def check_promises(system: FluidSystem, interpolator: Any, kernel: Any, case: Ca
             g = int(np.argmax(wrong))
             raise SimulationError(
                 f"interpolator {_origin('interpolators', case.interpolator.name)} returned {what} for ghost {g}"
-                f" (lowest {lowest[g]:.4g}, sum {sums[g]:.6g}); mend the method or its traits: sphframe verify"
+                f" (lowest {lowest[g]:.4g}, sum {sums[g]:.6g}); fix the method or its traits: sphframe verify"
                 f" {case.interpolator.name} shows a small example",
                 place=tuple(float(x) for x in points[g]),
             )
-
-
-@contextmanager
-def naming_component(case: Case, *, running: bool) -> Iterator[None]:
-    """Turn what a component of the case raises, or fails to compile with, into an error that names it.
-
-    Raises
-    ------
-    BrokenPluginError: when nothing has run yet. SimulationError: when it is ``running``.
-    """
-    try:
-        yield
-    except (SphframeError, MemoryError):
-        raise
-    except Exception as error:
-        strangers = [find(kind, getattr(case, field).name) for field, kind in COMPONENT_KINDS.items()]
-        strangers = [entry for entry in strangers if entry.distribution != "sphframe"]
-        compiled = isinstance(error, numba.core.errors.NumbaError | SystemError)
-        if not compiled:
-            strangers = [entry for entry in strangers if _passed_through(error, entry)]
-        if not strangers:
-            raise
-        doing = "does not compile" if isinstance(error, numba.core.errors.NumbaError) else "failed"
-        text = (
-            f"{' or '.join(entry.label for entry in strangers)} {doing}: {type(error).__name__}: {_shortened(error)}\n"
-            "to see where, run sphframe verify NAME, or run with NUMBA_DISABLE_JIT=1, which is slow but debugs as"
-            " plain Python"
-        )
-        raise (SimulationError(text) if running else BrokenPluginError(text)) from error
-
-
-@contextmanager
-def naming_hook() -> Iterator[None]:
-    """Turn what an installed hook plugin raises into an error that names it.
-
-    Raises
-    ------
-    SimulationError: in its place.
-    """
-    try:
-        yield
-    except (SphframeError, MemoryError):
-        raise
-    except Exception as error:
-        for entry in available("hooks"):
-            if _passed_through(error, entry):
-                raise SimulationError(
-                    f"{entry.label} failed: {type(error).__name__}: {_shortened(error)}\n"
-                    f"what was computed is kept; mend the plugin or take it away (pip uninstall {entry.distribution})"
-                    " and continue with sphframe resume"
-                ) from error
-        raise
-
-
-def _passed_through(error: BaseException, entry: Entry) -> bool:
-    """Whether ``error`` was raised in, or by something called from, the module of ``entry``."""
-    package = entry.value.partition(":")[0].partition(".")[0]
-    frames = traceback.walk_tb(error.__traceback__)
-    return any(str(frame.f_globals.get("__name__")).partition(".")[0] == package for frame, _ in frames)
-
-
-def _shortened(error: BaseException) -> str:
-    """The first line of a message, and of a compiler's those that say what and where."""
-    first, *rest = [line.strip() for line in str(error).splitlines() if line.strip()] or [""]
-    telling = [line for line in rest if line.startswith(("NameError", "Unknown", "No implementation", "File"))]
-    return "; ".join([first, *telling[:3]])
 
 
 def _origin(kind: str, name: str) -> str:
@@ -261,44 +186,35 @@ def _origin(kind: str, name: str) -> str:
 
 
 @numba.njit(parallel=True, cache=True)
-def _watch_fluid(rows, reference, dim, lower, upper, lowest, highest):  # type: ignore[no-untyped-def]
-    """Largest squared speed and displacement; the first row that is not finite; number and first outside the box;
-    number and first with a density outside ``lowest`` .. ``highest``. A first one that is not there is n."""
-    n = reference.shape[0]
-    speed2 = 0.0
-    moved2 = 0.0
+def _check_fluid(rows, n, dim, lower, upper, lowest, highest):  # type: ignore[no-untyped-def]
+    """Return the first of ``n`` rows that is not finite; number and first of those outside the box; number and first
+    of those with a density outside ``lowest`` .. ``highest``. A first one that does not exist is n."""
     broken = n
     outside = 0
     first_outside = n
-    astray = 0
-    first_astray = n
+    out_of_range = 0
+    first_out_of_range = n
     for i in numba.prange(n):
-        speed = 0.0
-        moved = 0.0
         inside = True
         density = rows[i, 2 * dim]
         total = density
         for k in range(dim):
-            speed += rows[i, dim + k] ** 2
-            moved += (rows[i, k] - reference[i, k]) ** 2
+            total += rows[i, dim + k] ** 2 + rows[i, k]
             inside = inside and rows[i, k] >= lower[k] and rows[i, k] <= upper[k]
-            total += rows[i, k]
-        if not math.isfinite(total + speed):
+        if not math.isfinite(total):
             broken = min(broken, i)
         elif not inside:
             outside += 1
             first_outside = min(first_outside, i)
         elif density < lowest or density > highest:
-            astray += 1
-            first_astray = min(first_astray, i)
-        speed2 = max(speed2, speed)
-        moved2 = max(moved2, moved)
-    return speed2, moved2, broken, outside, first_outside, astray, first_astray
+            out_of_range += 1
+            first_out_of_range = min(first_out_of_range, i)
+    return broken, outside, first_outside, out_of_range, first_out_of_range
 
 
 @numba.njit(cache=True)
 def _first_bad_ghost(rows, first, dim, statuses, status_count):  # type: ignore[no-untyped-def]
-    """Return the first ghost whose state is not finite or whose status is none; their number where all is well."""
+    """Return the first ghost whose state is not finite or whose status is not a :class:`Status`; g if there is none."""
     for g in range(statuses.shape[0]):
         total = rows[first + g, 2 * dim] + rows[first + g, 2 * dim + 1]
         for k in range(2 * dim):

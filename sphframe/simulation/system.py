@@ -6,18 +6,27 @@ The order of things within one evaluation reads from top to bottom in :meth:`Flu
 from collections.abc import Mapping
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.contact import put_back
-from sphframe.compiled import compile_part, specialise
-from sphframe.errors import SimulationError
-from sphframe.interfaces import CompiledKernel, EquationOfState, Motion, RigidBody, System
-from sphframe.neighbours import NeighbourLists, put_in_order
+from sphframe.cases import Case, Scene
+from sphframe.compiled import specialise
+from sphframe.interfaces import CompiledKernel, System
+from sphframe.neighbours import LargestMotion, NeighbourLists, put_in_order
 from sphframe.particles import Columns
 from sphframe.physics import fluid_sums, update_pressure, wall_reaction
+from sphframe.simulation.body_states import BodyStates
+from sphframe.simulation.components import Components
+from sphframe.simulation.updates import (
+    accumulate_rates,
+    advance_density,
+    advance_position,
+    advance_state,
+    advance_velocity,
+    copy_state,
+)
 
 __all__ = ["FluidSystem", "Parameters"]
 
@@ -50,130 +59,128 @@ class Parameters:
         self.diffusion = density_diffusion * smoothing_length * sound_speed
         self.viscosity = artificial_viscosity * smoothing_length * sound_speed * reference_density
 
+    @classmethod
+    def of_case(cls, case: Case, scene: Scene, components: Components) -> "Parameters":
+        """Return the parameters of ``case``, whose ``scene`` gives the depth of water."""
+        return cls(
+            dim=case.dimension,
+            kernel=components.compiled_kernel,
+            smoothing_length=case.smoothing_length_ratio * case.particle_spacing,
+            reference_density=case.reference_density,
+            sound_speed=case.reference_sound_speed(scene.depth),
+            gravity=case.gravity,
+            density_diffusion=case.density_diffusion,
+            artificial_viscosity=case.artificial_viscosity,
+        )
+
 
 class FluidSystem(System):
-    """The state that an integrator advances: rows of the fluid, and generalised coordinates of the bodies.
+    """The state that an integrator advances: packed rows of the fluid, and generalised coordinates of the bodies.
 
     Attributes
     ----------
     rows: (n + g, width) packed rows, see :class:`Columns`; the fluid comes first.
     rates: (n, 2 dim + 1) velocity, acceleration and density rate of the last evaluation.
     gradient: (n, dim) renormalised density gradient, kg/m^4.
-    body_position, body_velocity: (bodies, 3); ``loads`` (walls, 3) force and moment on each wall.
+    ids: (n,) original numbers of the fluid particles, which are kept in spatial order.
+    bodies: the states of the bodies; ``loads`` (walls, 3) force and moment on each wall.
     """
 
     def __init__(
-        self,
-        rows: Array,
-        fluid_count: int,
-        boundary: Boundary,
-        lists: NeighbourLists,
-        kernel: CompiledKernel,
-        equation_of_state: EquationOfState,
-        parameters: Parameters,
+        self, rows: Array, boundary: Boundary, lists: NeighbourLists, parts: Mapping[str, Any], parameters: Parameters
     ) -> None:
-        dim = parameters.dim
         self.boundary = boundary
         self.parameters = parameters
-        self.columns = Columns(dim)
-        self._hold_fluid(rows, np.zeros((fluid_count, 2 * dim + 1)), lists)
-        bodies = len(boundary.bodies)
-        self.body_position = np.zeros((bodies, 3))
-        self.body_velocity = np.zeros((bodies, 3))
-        self.motions = [Motion(np.zeros(3), np.zeros(3), np.zeros(3)) for _ in range(bodies)]
-        self._body_rates = np.zeros((2, bodies, 3))
-        self._body_start = np.zeros((2, bodies, 3))
-        self._body_total = np.zeros((2, bodies, 3))
+        self.columns = Columns(parameters.dim)
+        self.bodies = BodyStates(boundary.bodies)
         walls = len(boundary.wall_body)
         self.loads = np.zeros((walls, 3))
         self._partial_loads = np.zeros((64, walls, 3))
-        self._driving_force = np.zeros(dim)
+        self._driving_force = np.zeros(parameters.dim)
         self._driving_force[-1] = -parameters.reference_density * parameters.gravity
-        parts = {"DIM": dim, "SUPPORT": kernel.support, "GRADIENT": kernel.gradient_of_square}
-        self._pressure = specialise(
-            update_pressure, {"DIM": dim, "PRESSURE": compile_part(equation_of_state.pressure_function())}
-        )
-        self._density_rates = specialise(fluid_sums, {**parts, "CONTINUITY": True})
-        self._accelerations = specialise(fluid_sums, {**parts, "CONTINUITY": False})
-        self._wall_reaction = specialise(wall_reaction, parts)
+        own = dict(parts)
+        self._pressure = specialise(update_pressure, own)
+        self._density_rates = specialise(fluid_sums, {**own, "CONTINUITY": True})
+        self._accelerations = specialise(fluid_sums, {**own, "CONTINUITY": False})
+        self._wall_reaction = specialise(wall_reaction, own)
+        count = lists.fluid_count
+        self.rows, self.lists = rows, lists
+        self.ids = np.arange(count)
+        self.rates, self._start, self._total = (np.zeros((count, 2 * parameters.dim + 1)) for _ in range(3))
+        self.gradient = np.zeros((count, parameters.dim))
+        self._spare = np.zeros((count, self.columns.width))
+        self._pressure_is_current = False
 
-    def _hold_fluid(self, rows: Array, rates: Array, lists: NeighbourLists) -> None:
-        self.rows, self.rates, self.lists = rows, rates, lists
-        self.fluid_count = len(rates)
-        self.gradient = np.zeros((self.fluid_count, self.parameters.dim))
-        self._start = np.zeros_like(rates)
-        self._total = np.zeros_like(rates)
-        self._spare = np.zeros((self.fluid_count, self.columns.width))
+    @property
+    def fluid_count(self) -> int:
+        """Number of fluid particles."""
+        return len(self.ids)
 
-    def keep(self, kept: NDArray[np.bool_], lists: NeighbourLists) -> None:
-        """Go on with the fluid particles that are ``kept`` (n,) and with new ``lists`` for that many."""
-        n, gradient = self.fluid_count, self.gradient[kept]
-        self._hold_fluid(np.vstack([self.rows[:n][kept], self.rows[n:]]), self.rates[kept], lists)
-        self.gradient[:] = gradient
+    # neighbours
 
-    def put_in_order(self, order: NDArray[np.int64]) -> None:
-        """Number the fluid particles anew: the k-th is the one that was ``order[k]`` (n,)."""
-        put_in_order(self.rows, order, self._spare)
-        put_in_order(self.rates, order, self._spare)
-        put_in_order(self.gradient, order, self._spare)
+    def find_neighbours(self) -> None:
+        """Put the particles in spatial order and list their neighbours."""
+        order = self.lists.sort(self.rows)
+        for array in (self.rows, self.rates, self.gradient):
+            put_in_order(array, order, self._spare)
+        self.ids = self.ids[order]
+        self.lists.build(self.rows, self.boundary.points)
 
-    def state(self) -> dict[str, Array]:
-        """Return copies of all that the next step depends on, by name."""
-        return {
-            "rows": self.rows.copy(),
-            "rates": self.rates.copy(),
-            "gradient": self.gradient.copy(),
-            "loads": self.loads.copy(),
-            "body_position": self.body_position.copy(),
-            "body_velocity": self.body_velocity.copy(),
-            "body_rates": self._body_rates.copy(),
-            "motions": np.array(self.motions).reshape(-1, 3, 3),
-        }
+    def largest_motion(self) -> LargestMotion:
+        """Return the largest speed of the fluid and its largest displacement since the last neighbour search."""
+        return self.lists.largest_motion(self.rows)
 
-    def restore(self, state: Mapping[str, Array]) -> None:
-        """Continue from what :meth:`state` returned, with as many particles as there are now."""
-        self.rows[:] = state["rows"]
-        self.rates[:] = state["rates"]
-        self.gradient[:] = state["gradient"]
-        self.loads[:] = state["loads"]
-        self.body_position[:] = state["body_position"]
-        self.body_velocity[:] = state["body_velocity"]
-        self._body_rates[:] = state["body_rates"]
-        self.motions[:] = [Motion(*motion.copy()) for motion in state["motions"]]
+    def neighbours_remain_valid(self, motion: LargestMotion, interval: float) -> bool:
+        """Return whether the lists stay complete if everything keeps its speed for ``interval``, s."""
+        boundary = self.boundary
+        return self.lists.remain_valid(self.rows, boundary.points, motion, wall_speed=boundary.speed, interval=interval)
+
+    def keep(self, kept: NDArray[np.bool_]) -> None:
+        """Continue with the fluid particles that are ``kept`` (n,), whose neighbours must be found again."""
+        n = self.fluid_count
+        self.rows = np.vstack([self.rows[:n][kept], self.rows[n:]])
+        self.ids, self.rates, self.gradient = self.ids[kept], self.rates[kept], self.gradient[kept]
+        self._start, self._total, self._spare = self._start[kept], self._total[kept], self._spare[kept]
+        self.lists = self.lists.resized(self.fluid_count)
+
+    # evaluation
 
     def evaluate(self, time: float) -> None:
         """Compute all rates of the present state at ``time``."""
         self.evaluate_acceleration(time)
-        self._find(self._density_rates)
+        self._sum(self._density_rates)
 
     def evaluate_density(self, time: float) -> None:
         """Compute the density rates of the present state at ``time``, with the density gradient last computed."""
         self.move_walls(time)
         self.update_pressure()
         self.fill_ghosts()
-        self._find(self._density_rates)
+        self._sum(self._density_rates)
 
     def evaluate_acceleration(self, time: float) -> None:
         """Compute the accelerations and the density gradient of the present state at ``time``."""
         self.move_walls(time)
         self.update_pressure()
         self.fill_ghosts()
-        self._find(self._accelerations)
-        self.find_body_rates(time)
+        self._sum(self._accelerations)
+        self._update_body_rates(time)
 
     def move_walls(self, time: float) -> None:
         """Carry the ghosts to where the bodies are; a body under load keeps its last acceleration."""
-        for k, body in enumerate(self.boundary.bodies.values()):
-            motion = self._ask_body(time, k, body)
-            kept = self.motions[k].acceleration if body.needs_load else motion.acceleration
-            self.motions[k] = motion._replace(acceleration=kept)
-        p = self.parameters
-        self.boundary.move(self.motions, self.rows[self.fluid_count :], self._driving_force, p.reference_density)
+        self.bodies.update_motions(time, self._body_loads())
+        density = self.parameters.reference_density
+        self.boundary.move(self.bodies.motions, self.rows[self.fluid_count :], self._driving_force, density)
 
     def update_pressure(self) -> None:
-        """Pressure and volume of the fluid from its density."""
+        """Compute pressure and volume of the fluid from its density."""
         p = self.parameters
         self._pressure(self.rows, self.fluid_count, p.reference_density, p.sound_speed)
+        self._pressure_is_current = True
+
+    def refresh_pressure(self) -> None:
+        """Compute pressure and volume of the fluid, unless they are those of the present density."""
+        if not self._pressure_is_current:
+            self.update_pressure()
 
     def fill_ghosts(self) -> None:
         """Mirror, interpolate, assign."""
@@ -186,53 +193,37 @@ class FluidSystem(System):
             sound_speed=p.sound_speed,
         )
 
-    def _find(self, sums: Any) -> None:
+    def _sum(self, sums: Any) -> None:
         p, lists = self.parameters, self.lists
         sums(
             self.rows, lists.fluid, lists.fluid_counts, lists.ghost_counts, p.support, p.gradient_scale,
             p.diffusion, p.viscosity, p.gravity, self.gradient, self.rates,
         )  # fmt: skip
 
-    def find_loads(self) -> None:
-        """Force and moment of the fluid on each wall."""
-        p, lists, boundary = self.parameters, self.lists, self.boundary
+    def update_loads(self) -> None:
+        """Compute force and moment of the fluid on each wall."""
+        p, lists, boundary, motions = self.parameters, self.lists, self.boundary, self.bodies.motions
         centres = np.zeros((len(boundary.wall_body), p.dim))
         for wall, body in enumerate(boundary.wall_body):
             if body >= 0:
-                centres[wall] = boundary.centres[body] + self.motions[body].position[: p.dim]
+                centres[wall] = boundary.centres[body] + motions[body].position[: p.dim]
         self._wall_reaction(
             self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, boundary.wall,
-            *boundary.corner_shares(self.motions), centres, p.support, p.gradient_scale, p.viscosity,
+            *boundary.corner_shares(motions), centres, p.support, p.gradient_scale, p.viscosity,
             self._partial_loads, self.loads,
         )  # fmt: skip
 
-    def find_body_rates(self, time: float) -> None:
-        """Velocities and accelerations of the bodies under the present loads."""
-        if not self.boundary.bodies:
+    def _update_body_rates(self, time: float) -> None:
+        if not len(self.bodies):
             return
-        if any(body.needs_load for body in self.boundary.bodies.values()):
-            self.find_loads()
-        for k, body in enumerate(self.boundary.bodies.values()):
-            if body.needs_load:
-                self.motions[k] = self._ask_body(time, k, body)
-        for k, motion in enumerate(self.motions):
-            self._body_rates[0, k] = motion.velocity
-            self._body_rates[1, k] = motion.acceleration
+        if self.bodies.need_loads:
+            self.update_loads()
+        self.bodies.update_rates(time, self._body_loads())
 
-    def _ask_body(self, time: float, k: int, body: RigidBody) -> Motion:
-        load = self.loads[self.boundary.wall_body == k].sum(axis=0)
-        try:
-            motion = body.motion(time, self.body_position[k], self.body_velocity[k], load)
-            self.body_position[k], self.body_velocity[k] = motion.position, motion.velocity
-            fault = "" if np.all(np.isfinite(motion)) or not np.all(np.isfinite(load)) else f"returned {motion}"
-        except Exception as error:
-            fault = f"raised {type(error).__name__}: {error}"
-        if fault:
-            raise SimulationError(
-                f"body {list(self.boundary.bodies)[k]!r} failed: {type(body).__name__}.motion at t = {time:.6g} s with"
-                f" load {load} {fault}; mend it: it must return a Motion of three arrays of three finite numbers"
-            )
-        return motion
+    def _body_loads(self) -> Array:
+        """Force and moment (bodies, 3) of the fluid on each body, as last computed."""
+        wall_body = self.boundary.wall_body
+        return np.array([self.loads[wall_body == k].sum(axis=0) for k in range(len(self.bodies))]).reshape(-1, 3)
 
     def put_back(self, spacing: float) -> int:
         """Put particles that have come behind a wall back on it; return how many there were."""
@@ -244,86 +235,75 @@ class FluidSystem(System):
             )
         )  # fmt: skip
 
+    # what integrators are made of
+
     def hold(self) -> None:
         """Remember the state as the start of the step."""
-        _copy_state(self.rows, self._start)
+        copy_state(self.rows, self._start)
         self._total[:] = 0.0
-        if len(self.body_position):
-            self._body_start[0] = self.body_position
-            self._body_start[1] = self.body_velocity
-            self._body_total[:] = 0.0
+        self.bodies.hold()
 
     def advance(self, interval: float) -> None:
         """y = y0 + interval * f."""
-        _advance(self.rows, self._start, self.rates, interval)
-        if len(self.body_position):
-            self._set_bodies(self._body_start + interval * self._body_rates)
+        advance_state(self.rows, self._start, self.rates, interval)
+        self.bodies.advance(interval)
+        self._pressure_is_current = False
 
     def accumulate(self, weight: float) -> None:
         """total = total + weight * f."""
-        _accumulate(self._total, self.rates, weight)
-        self._body_total += weight * self._body_rates
+        accumulate_rates(self._total, self.rates, weight)
+        self.bodies.accumulate(weight)
 
     def advance_total(self, interval: float) -> None:
         """y = y0 + interval * total."""
-        _advance(self.rows, self._start, self._total, interval)
-        if len(self.body_position):
-            self._set_bodies(self._body_start + interval * self._body_total)
+        advance_state(self.rows, self._start, self._total, interval)
+        self.bodies.advance_total(interval)
+        self._pressure_is_current = False
 
     def drift(self, interval: float) -> None:
         """x = x + interval * u."""
-        _drift(self.rows, self.fluid_count, self.parameters.dim, interval)
-        self.body_position += interval * self.body_velocity
+        advance_position(self.rows, self.fluid_count, self.parameters.dim, interval)
+        self.bodies.drift(interval)
 
     def kick(self, interval: float) -> None:
         """u = u + interval * acceleration."""
-        _kick(self.rows, self.rates, self.parameters.dim, interval)
-        self.body_velocity += interval * self._body_rates[1]
+        advance_velocity(self.rows, self.rates, self.parameters.dim, interval)
+        self.bodies.kick(interval)
 
     def update_density(self, interval: float) -> None:
         """rho = rho + interval * density rate."""
-        _update_density(self.rows, self.rates, self.parameters.dim, interval)
+        advance_density(self.rows, self.rates, self.parameters.dim, interval)
+        self._pressure_is_current = False
 
-    def _set_bodies(self, state: Array) -> None:
-        self.body_position[:], self.body_velocity[:] = state
+    # what restarts a run
 
+    def state(self) -> dict[str, NDArray[Any]]:
+        """Return copies of all that the next step depends on, by name."""
+        parts = {"bodies": self.bodies.state(), "boundary": self.boundary.state(), "lists": self.lists.state()}
+        return {
+            "ids": self.ids.copy(),
+            "rows": self.rows.copy(),
+            "rates": self.rates.copy(),
+            "gradient": self.gradient.copy(),
+            "loads": self.loads.copy(),
+            **{f"{part}.{name}": array for part, arrays in parts.items() for name, array in arrays.items()},
+        }
 
-@numba.njit(parallel=True, cache=True)
-def _copy_state(rows, start):  # type: ignore[no-untyped-def]
-    for i in numba.prange(start.shape[0]):
-        for k in range(start.shape[1]):
-            start[i, k] = rows[i, k]
-
-
-@numba.njit(parallel=True, cache=True)
-def _advance(rows, start, rates, interval):  # type: ignore[no-untyped-def]
-    for i in numba.prange(start.shape[0]):
-        for k in range(start.shape[1]):
-            rows[i, k] = start[i, k] + interval * rates[i, k]
-
-
-@numba.njit(parallel=True, cache=True)
-def _accumulate(total, rates, weight):  # type: ignore[no-untyped-def]
-    for i in numba.prange(total.shape[0]):
-        for k in range(total.shape[1]):
-            total[i, k] += weight * rates[i, k]
-
-
-@numba.njit(parallel=True, cache=True)
-def _drift(rows, count, dim, interval):  # type: ignore[no-untyped-def]
-    for i in numba.prange(count):
-        for k in range(dim):
-            rows[i, k] += interval * rows[i, dim + k]
+    def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Continue from what :meth:`state` returned for the same case."""
+        count = len(state["ids"])
+        if count != self.fluid_count:
+            self.keep(np.arange(self.fluid_count) < count)
+        self.ids = state["ids"].copy()
+        self.lists.restore(_part(state, "lists"), self.rows)
+        self.bodies.restore(_part(state, "bodies"))
+        self.boundary.restore(_part(state, "boundary"))
+        for array, name in ((self.rows, "rows"), (self.rates, "rates"), (self.gradient, "gradient")):
+            array[:] = state[name]
+        self.loads[:] = state["loads"]
+        self._pressure_is_current = False
 
 
-@numba.njit(parallel=True, cache=True)
-def _kick(rows, rates, dim, interval):  # type: ignore[no-untyped-def]
-    for i in numba.prange(rates.shape[0]):
-        for k in range(dim, 2 * dim):
-            rows[i, k] += interval * rates[i, k]
-
-
-@numba.njit(parallel=True, cache=True)
-def _update_density(rows, rates, dim, interval):  # type: ignore[no-untyped-def]
-    for i in numba.prange(rates.shape[0]):
-        rows[i, 2 * dim] += interval * rates[i, 2 * dim]
+def _part(state: Mapping[str, NDArray[Any]], part: str) -> dict[str, NDArray[Any]]:
+    """Return the arrays of a part of the system, by their names within it."""
+    return {name.removeprefix(f"{part}."): array for name, array in state.items() if name.startswith(f"{part}.")}

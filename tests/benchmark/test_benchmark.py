@@ -83,8 +83,8 @@ def test_a_call_that_fails_is_counted_and_the_next_is_not_charged_for_it() -> No
 def test_a_watched_step_has_all_parts_and_the_same_bits() -> None:
     plain, watched = (Simulation(dam_break(TINY, 2), threads=1) for _ in range(2))
     stopwatch = watch_steps(watched)
-    watched._find_neighbours()
-    plain._find_neighbours()
+    watched.system.find_neighbours()
+    plain.system.find_neighbours()
     for _ in range(3):
         plain.advance()
         watched.advance()
@@ -138,9 +138,9 @@ def test_the_bare_loops_compute_what_the_solver_computes() -> None:
     loops = BareLoops(simulation)
     loops.find_gradient()
     loops.find_rates()
-    solver = simulation._in_original_order(simulation.system.rates)[loops.order][:, 2:]
+    solver = simulation.in_original_order(simulation.system.rates)[loops.order][:, 2:]
     np.testing.assert_allclose(loops.rates, solver, rtol=0.0, atol=1e-11 * np.abs(solver).max(axis=0).max())
-    gradient = simulation._in_original_order(simulation.system.gradient)[loops.order]
+    gradient = simulation.in_original_order(simulation.system.gradient)[loops.order]
     np.testing.assert_allclose(loops.gradient, gradient, rtol=0.0, atol=1e-11 * np.abs(gradient).max())
     assert 30.0 < loops.neighbours < 50.0
 
@@ -220,7 +220,7 @@ def test_arrays_are_counted_once() -> None:
 def test_memory_per_particle() -> None:
     found = measure_here(TINY, 2)
     simulation = Simulation(dam_break(TINY, 2), threads=1)
-    n, system, lists = simulation.fluid_count, simulation.system, simulation.lists
+    n, system, lists = simulation.fluid_count, simulation.system, simulation.system.lists
     assert found["particles"] == n
     assert found["total"] == pytest.approx(sum(found["arrays"].values()))
     assert found["arrays"]["system"] * n >= system.rows.nbytes + system.rates.nbytes + system.gradient.nbytes

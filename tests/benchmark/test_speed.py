@@ -28,7 +28,7 @@ def test_evaluation(benchmark, simulation: Simulation) -> None:  # type: ignore[
 
 
 def test_neighbour_lists(benchmark, simulation: Simulation) -> None:  # type: ignore[no-untyped-def]
-    benchmark(simulation._find_neighbours)
+    benchmark(simulation.system.find_neighbours)
 
 
 def test_ghosts(benchmark, simulation: Simulation) -> None:  # type: ignore[no-untyped-def]

@@ -12,6 +12,7 @@ from sphframe.kernels.gaussian import RenormalisedGaussian
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
 from sphframe.registry import create
+from sphframe.simulation.components import loop_parts
 
 METHODS = ["improved-shepard", "shepard", "normalized", "sfdi", "mls-linear", "mls-quadratic", "mdbc", "adami"]
 LINEAR_EXACT = ["sfdi", "mls-linear", "mls-quadratic"]
@@ -45,7 +46,7 @@ class Basin:
             {"body": body} if body else {},
             create("interpolators", method),
             self.kernel,
-            Linear(),
+            loop_parts(self.kernel, Linear(), dim),
             spacing=SPACING,
             support=self.kernel.support * self.h,
             no_slip=slip == "no",

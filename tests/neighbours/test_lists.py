@@ -1,10 +1,11 @@
 """Neighbour lists against brute force."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sphframe.neighbours import NeighbourLists
+from sphframe.neighbours import LargestMotion, NeighbourLists
 from sphframe.neighbours.approach import relative_displacement
 from sphframe.particles import Columns
 
@@ -51,7 +52,7 @@ def test_lists_hold_the_pairs_within_the_radius(dim, seed, fluid, ghosts, scale,
 
 
 def test_clusters_are_compact():
-    """Particles that follow each other fill squares, so that their lists are little longer than one particle's."""
+    """Consecutive particles fill squares, so their lists are little longer than that of one particle."""
     x, y = np.meshgrid(np.arange(60.0), np.arange(60.0))
     rows = Columns(2).empty(3600)
     rows[:, :2] = np.random.default_rng(3).permutation(np.stack([x.ravel(), y.ravel()], axis=1))
@@ -79,8 +80,8 @@ def test_sorting_is_stable():
     shear=st.floats(0.0, 0.1),
     noise=st.floats(0.0, 0.1),
 )
-def test_lists_that_last_are_complete(dim, seed, fluid, stream, shear, noise):
-    """However the fluid has moved: while lists are said to last, whatever is within the support is on them."""
+def test_valid_lists_are_complete(dim, seed, fluid, stream, shear, noise):
+    """However the fluid has moved: while lists are valid, they hold whatever is within the support."""
     random = np.random.default_rng(seed)
     columns, ghosts, support, skin, ahead = Columns(dim), 60, 0.4, 0.2, 0.01
     rows = columns.empty(fluid + ghosts)
@@ -94,12 +95,17 @@ def test_lists_that_last_are_complete(dim, seed, fluid, stream, shear, noise):
     moved[:, 0] += stream
     moved += random.uniform(-noise, noise, moved.shape) / np.sqrt(dim)
     rows[:fluid, columns.position] += moved
+    rows[:fluid, columns.velocity] = random.uniform(-1.0, 1.0, (fluid, dim)) / np.sqrt(dim)
+    motion = lists.largest_motion(rows)
     furthest = float(np.linalg.norm(moved, axis=1).max())
+    assert motion.displacement == pytest.approx(furthest)
+    assert motion.speed == pytest.approx(np.linalg.norm(rows[:fluid, columns.velocity], axis=1).max())
     near = np.linalg.norm(reference[:, None] - reference, axis=2) < support + 2.0 * skin
     apart = np.linalg.norm(moved[:, None] - moved, axis=2)
+    valid = lists.remain_valid(rows, points, motion, wall_speed=0.0, interval=ahead / motion.speed)
     if furthest + ahead > skin or (2.0 * (furthest + ahead) > skin and apart[near].max() + 2.0 * ahead > skin):
-        assert not lists.last(rows, reference, furthest, 0.0, ahead)
-    if not lists.last(rows, reference, furthest, 0.0, ahead):
+        assert not valid
+    if not valid:
         return
     rows[:fluid, columns.position] += random.uniform(-ahead, ahead, moved.shape) / np.sqrt(dim)
     position = rows[:, columns.position]
@@ -114,7 +120,7 @@ def test_lists_that_last_are_complete(dim, seed, fluid, stream, shear, noise):
 
 @settings(max_examples=60, deadline=None)
 @given(dim=st.sampled_from([2, 3]), seed=st.integers(0, 2**31), count=st.integers(2, 12))
-def test_no_two_neighbours_part_further_than_the_bound(dim, seed, count):
+def test_neighbours_move_apart_by_less_than_the_bound(dim, seed, count):
     random = np.random.default_rng(seed)
     reference = random.uniform(0.0, 1.0, (count, dim))
     rows = reference + random.normal(size=(count, dim))
@@ -123,25 +129,58 @@ def test_no_two_neighbours_part_further_than_the_bound(dim, seed, count):
     boxes = np.empty((2, int(shape.prod()), 6))
     bound = relative_displacement(rows, reference, dim, np.zeros(dim), edge, shape, boxes)
     near = np.linalg.norm(reference[:, None] - reference, axis=2) < edge
-    parted = np.linalg.norm((rows - reference)[:, None] - (rows - reference), axis=2)
-    assert parted[near].max() <= bound * (1.0 + 1e-12)
+    apart = np.linalg.norm((rows - reference)[:, None] - (rows - reference), axis=2)
+    assert apart[near].max() <= bound * (1.0 + 1e-12)
     assert bound <= np.linalg.norm(np.ptp(rows - reference, axis=0)) * (1.0 + 1e-12)
     one_part = np.empty((1, int(shape.prod()), 6))
     assert relative_displacement(rows, reference, dim, np.zeros(dim), edge, shape, one_part) == bound
 
 
-def test_a_stream_wears_lists_out_at_the_walls_only():
-    """Fluid that moves as one body keeps its lists twice as long as fluid whose particles part."""
+def test_a_uniform_stream_invalidates_lists_at_walls_only():
+    """Fluid that moves as one body keeps its lists twice as long as fluid whose particles move apart."""
     random = np.random.default_rng(5)
     rows = Columns(2).empty(500)
     rows[:, :2] = random.uniform(-1.0, 1.0, (500, 2))
-    lists = NeighbourLists(2, 500, 0, support=0.4, skin=0.1)
+    lists, points = NeighbourLists(2, 500, 0, support=0.4, skin=0.1), np.empty((0, 2))
     rows = rows[lists.sort(rows)]
-    lists.build(rows, np.empty((0, 2)))
-    reference = rows[:, :2].copy()
+    lists.build(rows, points)
     rows[:, 0] += 0.09
-    assert lists.last(rows, reference, 0.09, walls=0.0, ahead=0.005)
-    assert not lists.last(rows, reference, 0.09, walls=0.0, ahead=0.02)
-    assert not lists.last(rows, reference, 0.09, walls=0.02, ahead=0.005)
+    motion = LargestMotion(speed=1.0, displacement=0.09)
+    assert lists.remain_valid(rows, points, motion, wall_speed=0.0, interval=0.005)
+    assert not lists.remain_valid(rows, points, motion, wall_speed=0.0, interval=0.02)
+    assert not lists.remain_valid(rows, points, motion, wall_speed=4.0, interval=0.005)
     rows[0, 0] -= 0.18
-    assert not lists.last(rows, reference, 0.09, walls=0.0, ahead=0.005)
+    assert not lists.remain_valid(rows, points, motion, wall_speed=0.0, interval=0.005)
+
+
+def test_walls_that_have_moved_invalidate_lists():
+    """The displacement of ghosts, and of evaluation points, counts as that of the fluid does."""
+    rows, points = Columns(2).empty(3), np.array([[0.0, 0.3]])
+    rows[:, :2] = [[0.0, 0.1], [0.1, 0.1], [0.0, -0.1]]
+    lists = NeighbourLists(2, 2, 1, support=0.4, skin=0.1)
+    rows[:2] = rows[:2][lists.sort(rows)]
+    lists.build(rows, points)
+    at_rest = lists.largest_motion(rows)
+    assert at_rest == (0.0, 0.0)
+    assert lists.remain_valid(rows, points, at_rest, wall_speed=0.0, interval=1.0)
+    assert not lists.remain_valid(rows, np.add(points, [0.0, 0.11]), at_rest, wall_speed=0.0, interval=1.0)
+    rows[2, 0] += 0.09
+    assert lists.remain_valid(rows, points, at_rest, wall_speed=0.0, interval=1.0)
+    rows[2, 0] += 0.02
+    assert not lists.remain_valid(rows, points, at_rest, wall_speed=0.0, interval=1.0)
+
+
+def test_restored_lists_are_those_that_were_saved():
+    random = np.random.default_rng(7)
+    rows, points = Columns(2).empty(90), random.uniform(-1.0, 1.0, (20, 2))
+    rows[:, :2] = random.uniform(-1.0, 1.0, (90, 2))
+    lists = NeighbourLists(2, 70, 20, support=0.4, skin=0.1, cluster=8)
+    rows[:70] = rows[:70][lists.sort(rows)]
+    lists.build(rows, points)
+    saved = lists.state()
+    other = lists.resized(70)
+    other.restore(saved, np.zeros_like(rows))
+    for name in ("fluid_counts", "ghost_counts", "point_counts"):
+        np.testing.assert_array_equal(getattr(other, name), getattr(lists, name))
+    for c, count in enumerate(lists.fluid_counts + lists.ghost_counts):
+        np.testing.assert_array_equal(other.fluid[c, :count], lists.fluid[c, :count])

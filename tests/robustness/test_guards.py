@@ -27,7 +27,7 @@ def put(column: str, value: float) -> Callable[[Any], None]:
 
 
 def spoil_ghosts(simulation: Any) -> None:
-    simulation.boundary._fill = lambda *arguments: arguments[0].__setitem__((-1, simulation.columns.pressure), np.nan)
+    simulation.boundary.fill = lambda rows, *_, **__: rows.__setitem__((-1, simulation.columns.pressure), np.nan)
 
 
 def spoil_body(simulation: Any) -> None:
@@ -35,13 +35,13 @@ def spoil_body(simulation: Any) -> None:
 
 
 def fall_back(simulation: Any) -> None:
-    fill = simulation.boundary._fill
+    fill = simulation.boundary.fill
 
-    def fill_badly(*arguments: Any) -> None:
-        fill(*arguments)
-        arguments[-1][:] = 2
+    def fill_badly(*arguments: Any, **named: Any) -> None:
+        fill(*arguments, **named)
+        simulation.boundary.statuses[:] = 2
 
-    simulation.boundary._fill = fill_badly
+    simulation.boundary.fill = fill_badly
 
 
 def shoot(simulation: Any) -> None:

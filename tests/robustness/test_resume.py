@@ -236,7 +236,7 @@ def damaged_checkpoints(kept: bytes, path: Path) -> dict[str, bytes]:
     header = json.loads(members["checkpoint.json"])
     objects = {**header, "arrays": {**header["arrays"], "ids": ["|O", [3]]}}
     twice = np.full(len(members["ids"]) // 8, 3).astype("<i8").tobytes()
-    far = np.frombuffer(members["reference"]).copy()
+    far = np.frombuffer(members["lists.fluid"]).copy()
     far[0] = 1e12
     longer = {**header, "arrays": {**header["arrays"], "ids": ["<i8", [10**15]]}}
     other = {**header, "arrays": {name: value for name, value in header["arrays"].items() if name != "ids"}}
@@ -255,8 +255,8 @@ def damaged_checkpoints(kept: bytes, path: Path) -> dict[str, bytes]:
         "impossible length": packed({"checkpoint.json": json.dumps(longer).encode()}),
         "array missing": packed({"checkpoint.json": json.dumps(other).encode()}),
         "numbers twice": packed({"ids": twice}),
-        "far away": packed({"reference": far.tobytes()}),
-        "not finite": packed({"system.rows": np.full(len(members["system.rows"]) // 8, np.nan).tobytes()}),
+        "far away": packed({"lists.fluid": far.tobytes()}),
+        "not finite": packed({"rows": np.full(len(members["rows"]) // 8, np.nan).tobytes()}),
         "compressed": packed({}, zipfile.ZIP_DEFLATED),
     }
 

@@ -116,7 +116,7 @@ def test_runaway_state_stops_with_its_place():
 def test_fields_keep_the_original_order():
     simulation = Simulation(tank())
     before = simulation.fields().position
-    simulation._find_neighbours()
+    simulation.system.find_neighbours()
     np.testing.assert_array_equal(simulation.fields().position, before)
 
 

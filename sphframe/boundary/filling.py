@@ -1,0 +1,90 @@
+"""Boundary: the compiled loops that fill the ghosts from the fluid, with their scratch memory."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from sphframe.boundary.conjugate import make_conjugate
+from sphframe.boundary.ghosts import fill_ghosts
+from sphframe.compiled import specialise
+from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint
+from sphframe.neighbours import NeighbourLists
+
+__all__ = ["Filling"]
+
+Array = NDArray[np.float64]
+
+
+class Filling:
+    """Interpolates the fluid to the evaluation points and assigns velocity, pressure and density of the ghosts.
+
+    Parameters
+    ----------
+    interpolator, kernel: the method and the kernel; ``parts`` the compiled parts of the loops, by name.
+    balanced: whether the hydrostatic correction is the balanced one; ``corrected`` whether ghost velocities are
+        corrected, see :mod:`sphframe.boundary.ghosts` and :mod:`sphframe.boundary.conjugate`.
+    """
+
+    def __init__(
+        self,
+        interpolator: BoundaryInterpolator,
+        kernel: CompiledKernel,
+        parts: Mapping[str, Any],
+        *,
+        balanced: bool,
+        corrected: bool,
+    ) -> None:
+        self._dim: int = parts["DIM"]
+        evaluation_point = interpolator.traits.evaluation_point
+        self._fill = specialise(
+            fill_ghosts,
+            {
+                **parts,
+                "BALANCED": balanced or evaluation_point is EvaluationPoint.GHOST,
+                "SCALED": balanced and corrected,
+                "EXTRAPOLATED": evaluation_point is EvaluationPoint.EXTRAPOLATED,
+                "WEIGHTS": interpolator.point_weights(kernel, self._dim),
+                "FALLBACK": interpolator.fallback_weights(kernel, self._dim),
+            },
+        )
+        conjugate = corrected and not balanced and evaluation_point is EvaluationPoint.MIRROR
+        self._make_conjugate = specialise(make_conjugate, dict(parts)) if conjugate else None
+        self._allocate(8)
+
+    def _allocate(self, capacity: int) -> None:
+        chunks = 8 * int(numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
+        self._offsets = np.zeros((chunks, capacity, self._dim))
+        self._columns = np.zeros((chunks, 4, capacity))
+        self._members = np.zeros((chunks, capacity), np.uint32)
+        self._lift = np.zeros((chunks, self._dim))
+
+    def __call__(
+        self,
+        rows: Array,
+        lists: NeighbourLists,
+        points: Array,
+        lifts: Array,
+        reflection: Array,
+        wall_velocity: Array,
+        driving: Array,
+        statuses: NDArray[np.int64],
+        *,
+        kernel_scale: float,
+        reference_density: float,
+        sound_speed: float,
+    ) -> None:
+        """Fill the ghosts in ``rows``, and their ``statuses`` (g,); shapes as in :class:`Boundary`."""
+        if lists.points.shape[1] > self._members.shape[1]:
+            self._allocate(lists.points.shape[1])
+        self._fill(
+            rows, lists.fluid_count, lists.points, lists.point_counts, points, lifts, reflection,
+            wall_velocity, driving, lists.support, kernel_scale, reference_density, sound_speed,
+            self._offsets, self._columns, self._members, self._lift, statuses,
+        )  # fmt: skip
+        if self._make_conjugate is not None:
+            self._make_conjugate(
+                rows, lists.fluid_count, lists.points, lists.point_counts, reflection, wall_velocity, lists.support
+            )

@@ -1,0 +1,117 @@
+"""Simulation: the system at the start of a case: particles on their lattice, ghosts, and the pressure at rest."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sphframe.boundary.boundary import Boundary
+from sphframe.cases import Case, Scene
+from sphframe.compiled import LANES, specialise
+from sphframe.errors import InputError
+from sphframe.geometry import lattice, lattice_cell
+from sphframe.neighbours import NeighbourLists
+from sphframe.particles import Columns
+from sphframe.physics import invert_pressure
+from sphframe.simulation.components import Components
+from sphframe.simulation.rest_state import rest_pressure
+from sphframe.simulation.system import FluidSystem, Parameters
+
+__all__ = ["initial_system"]
+
+Array = NDArray[np.float64]
+
+SKIN = 0.1
+"""skin of the neighbour lists over the kernel support"""
+
+
+def initial_system(case: Case, scene: Scene, components: Components, parameters: Parameters) -> FluidSystem:
+    """Return the system of ``scene`` at time 0, with its neighbour lists built and all rates computed.
+
+    Raises
+    ------
+    InputError: when the scene holds no fluid or no wall, or contradicts the case.
+    """
+    dim, spacing = case.dimension, case.particle_spacing
+    position, volumes = _fluid_lattice(scene, spacing)
+    _check_scene(scene, position, dim)
+    boundary = Boundary(
+        scene.walls,
+        scene.bodies,
+        components.interpolator,
+        components.compiled_kernel,
+        components.parts,
+        spacing=spacing,
+        support=parameters.support,
+        no_slip=case.slip == "no",
+        balanced=case.hydrostatic_lift == "balanced",
+        corrected=case.ghost_velocity == "corrected",
+    )
+    lists = NeighbourLists(
+        dim,
+        len(position),
+        boundary.count,
+        parameters.support,
+        SKIN * parameters.support,
+        cluster=LANES,
+        width=0.75 * LANES ** (1.0 / dim) * spacing,
+    )
+    density = components.parts["DENSITY"]
+    if scene.initial_pressure is not None:
+        pressure = scene.initial_pressure(position)
+    else:
+        depth = max(region.upper[-1] for region in scene.fluid) - position[:, -1]
+        pressure = rest_pressure(
+            depth, density, parameters.reference_density, parameters.sound_speed, parameters.gravity
+        )
+    rows = _initial_rows(position, volumes, pressure, boundary.position, spacing, components, parameters)
+    system = FluidSystem(rows, boundary, lists, components.parts, parameters)
+    system.move_walls(0.0)
+    system.find_neighbours()
+    system.evaluate(0.0)
+    return system
+
+
+def _fluid_lattice(scene: Scene, spacing: float) -> tuple[Array, Array]:
+    """Return positions (n, dim) and volumes (n,) of the fluid particles in all regions."""
+    positions = [lattice(region, spacing) for region in scene.fluid]
+    volumes = [
+        np.full(len(position), np.prod(lattice_cell(region, spacing)))
+        for position, region in zip(positions, scene.fluid, strict=True)
+    ]
+    return np.vstack(positions), np.concatenate(volumes)
+
+
+def _initial_rows(
+    position: Array,
+    volumes: Array,
+    pressure: Array,
+    ghosts: Array,
+    spacing: float,
+    components: Components,
+    parameters: Parameters,
+) -> Array:
+    """Return the packed rows of fluid particles with their densities from ``pressure``, followed by the ghosts."""
+    columns, n = Columns(parameters.dim), len(position)
+    rho0, ghost_volume = parameters.reference_density, spacing**parameters.dim
+    rows = columns.empty(n + len(ghosts))
+    rows[:n, columns.position] = position
+    rows[:n, columns.pressure] = pressure
+    specialise(invert_pressure, components.parts, parallel=False)(rows, n, rho0, parameters.sound_speed)
+    rows[:n, columns.volume] = volumes
+    rows[:n, columns.mass] = rows[:n, columns.density] * volumes
+    rows[n:, columns.density] = rho0
+    rows[n:, columns.volume] = ghost_volume
+    rows[n:, columns.mass] = rho0 * ghost_volume
+    rows[n:, columns.position] = ghosts
+    return rows
+
+
+def _check_scene(scene: Scene, position: Array, dim: int) -> None:
+    if position.shape[1] != dim or any(wall.dimension != dim for wall in scene.walls):
+        raise InputError(f"the case says dimension = {dim}, but its walls or fluid are drawn in another one")
+    if len(position) == 0:
+        raise InputError("the case holds no fluid particle: make particle_spacing smaller or the fluid larger")
+    if not scene.walls:
+        raise InputError("the case has no wall; a wall boundary needs at least one")
+    unknown = sorted({wall.body for wall in scene.walls if wall.body is not None} - set(scene.bodies))
+    if unknown:
+        raise InputError(f"walls refer to the bodies {unknown}, but the case has {sorted(scene.bodies) or 'none'}")

@@ -1,0 +1,203 @@
+"""Simulation: what can be read from a running simulation: fields, probes, forces, energies."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sphframe.boundary.boundary import Boundary
+from sphframe.cases import Case, Scene
+from sphframe.compiled import specialise
+from sphframe.geometry import directions_to_world, to_body_frame, to_world, wall_panels
+from sphframe.interfaces import Fields, Motion, Status
+from sphframe.physics import sample_points
+from sphframe.simulation.components import Components
+from sphframe.simulation.probes import Gauges, PressureProbes
+from sphframe.simulation.system import FluidSystem
+
+__all__ = ["Observation"]
+
+Array = NDArray[np.float64]
+
+
+class Observation:
+    """Quantities of the present state of a system, in SI units; per metre of width in 2-D.
+
+    Attributes
+    ----------
+    case, scene: what is simulated. ``components``: the kernel, equation of state, interpolator and integrator.
+    system: fluid particles, ghosts and bodies; ``boundary`` its ghosts: ``position`` and ``mirror`` (g, dim) at
+        present, ``statuses`` (g,).
+    particle_count: fluid particles at the start; ``ghost_count``: ghosts.
+    """
+
+    def __init__(self, case: Case, scene: Scene, components: Components, system: FluidSystem) -> None:
+        self.case, self.scene, self.components, self.system = case, scene, components, system
+        self.boundary: Boundary = system.boundary
+        self.parameters, self.columns = system.parameters, system.columns
+        self.particle_count = system.fluid_count
+        self.ghost_count = self.boundary.count
+        lower, upper = (np.array(corner, dtype=np.float64) for corner in scene.domain)
+        self._probes = PressureProbes(scene.probes, case.dimension)
+        self._gauges = Gauges(scene.gauges, lower, upper, 0.25 * case.particle_spacing)
+        self._panels = wall_panels(scene.walls, case.particle_spacing)
+        self._sample: Callable[..., None] = specialise(sample_points, components.parts)
+
+    @property
+    def sound_speed(self) -> float:
+        """Reference sound speed c0, m/s."""
+        return self.parameters.sound_speed
+
+    @property
+    def smoothing_length(self) -> float:
+        """Smoothing length h, m."""
+        return self.parameters.smoothing_length
+
+    @property
+    def support(self) -> float:
+        """Radius of the kernel support, m."""
+        return self.parameters.support
+
+    @property
+    def fluid_count(self) -> int:
+        """Number of fluid particles that are left."""
+        return self.system.fluid_count
+
+    @property
+    def removed_count(self) -> int:
+        """Number of particles that have left the domain and were removed."""
+        return self.particle_count - self.fluid_count
+
+    @property
+    def ghosts(self) -> Boundary:
+        """The ghosts; the same as ``boundary``."""
+        return self.boundary
+
+    # fields
+
+    def _fluid(self) -> Fields:
+        """Views of the fluid's fields, with pressures of the present densities."""
+        self.system.refresh_pressure()
+        return self._fields(self.system.rows[: self.fluid_count])
+
+    def _fields(self, rows: Array) -> Fields:
+        columns = self.columns
+        return Fields(
+            rows[:, columns.position], rows[:, columns.velocity], rows[:, columns.density], rows[:, columns.pressure]
+        )
+
+    def fields(self) -> Fields:
+        """Return copies of the fluid's fields in the particles' original order; NaN for removed particles."""
+        return Fields(*map(self.in_original_order, self._fluid()))
+
+    def ghost_fields(self) -> Fields:
+        """Return copies of the ghosts' fields as last filled."""
+        return self._fields(self.system.rows[self.fluid_count :].copy())
+
+    def masses(self) -> Array:
+        """Return the mass of each particle in the original order, kg; NaN for removed particles."""
+        return self.in_original_order(self.system.rows[: self.fluid_count, self.columns.mass])
+
+    def in_original_order(self, values: NDArray[Any]) -> Array:
+        """Return ``values`` (n, ...) of the fluid in the particles' original order; NaN for removed particles."""
+        ordered = np.full((self.particle_count, *values.shape[1:]), np.nan)
+        ordered[self.system.ids] = values
+        return ordered
+
+    # instruments
+
+    def sample(self, points: Array) -> tuple[Array, Array]:
+        """Return pressure (Pa, 0 where dry) and filling (1 inside the fluid) at ``points`` (k, dim)."""
+        self.system.refresh_pressure()
+        p = self.parameters
+        lists, counts = self.system.lists.around(points, self.system.rows)
+        pressures, fillings = np.zeros(len(points)), np.zeros(len(points))
+        self._sample(
+            points, self.system.rows, lists, counts, p.support, p.kernel_scale, p.reference_density * p.gravity,
+            pressures, fillings,
+        )  # fmt: skip
+        return pressures, fillings
+
+    def probe_pressures(self) -> Array:
+        """Return the pressure at each probe, Pa."""
+        return self._probes.average(self.sample(self._probes.points)[0])
+
+    def gauge_elevations(self) -> Array:
+        """Return the elevation of the free surface at each gauge, m; NaN where dry."""
+        return self._gauges.elevations(self.sample(self._gauges.points)[1])
+
+    def diagnostics(self) -> dict[str, float]:
+        """Return the case's own diagnostics; those of a body see positions in the frame in which it was drawn."""
+        fields = self._fluid()
+        found = {}
+        for diagnostic in self.scene.diagnostics:
+            seen = fields
+            if diagnostic.body is not None:
+                body = list(self.boundary.bodies).index(diagnostic.body)
+                seen = fields._replace(position=self._in_frame(fields.position, body))
+            found[diagnostic.name] = diagnostic.function(seen)
+        return found
+
+    # totals
+
+    def energies(self) -> dict[str, float]:
+        """Return kinetic, potential and internal energy of the fluid, J, summed in one thread.
+
+        The potential energy is measured from z = 0; the internal energy is p^2 V / (2 rho c0^2), its leading order.
+        """
+        fields = self._fluid()
+        mass = self.system.rows[: self.fluid_count, self.columns.mass]
+        compliance = mass / (fields.density**2 * self.sound_speed**2)
+        return {
+            "kinetic": 0.5 * float(np.einsum("i,ij,ij->", mass, fields.velocity, fields.velocity)),
+            "potential": self.case.gravity * float(np.einsum("i,i->", mass, fields.position[:, -1])),
+            "internal": 0.5 * float(np.einsum("i,i,i->", compliance, fields.pressure, fields.pressure)),
+        }
+
+    def particles_outside(self) -> int:
+        """Return the number of particles behind a wall."""
+        position = self.system.rows[: self.fluid_count, self.columns.position]
+        outside = np.zeros(self.fluid_count, dtype=np.bool_)
+        for wall, body in zip(self.scene.walls, self.boundary.wall_body, strict=True):
+            outside |= wall.is_behind(self._in_frame(position, body) if body >= 0 else position)
+        return int(outside.sum())
+
+    def status_counts(self) -> NDArray[np.int64]:
+        """Return the number of ghosts by :class:`Status` at the last evaluation."""
+        return np.bincount(self.boundary.statuses, minlength=len(Status))
+
+    # walls and bodies
+
+    def _in_frame(self, position: Array, body: int) -> Array:
+        """Return present positions in the frame in which the body was drawn."""
+        return to_body_frame(position, self.system.bodies.motions[body].position, self.boundary.centres[body])
+
+    def body_motions(self) -> dict[str, Motion]:
+        """Return the motion of each body at present."""
+        return self.system.bodies.present_motions()
+
+    def wall_forces(self) -> dict[str, tuple[Array, Array]]:
+        """Return the force on each wall, N, by the ghosts' reaction and by integrated pressure.
+
+        Above the water, where the kernel average still reaches it, the lifted pressure is negative: it is left out.
+        """
+        self.system.refresh_pressure()
+        self.system.update_loads()
+        centre, area = self._panels.centre.copy(), self._panels.area.copy()
+        for index, body in enumerate(self.boundary.wall_body):
+            if body >= 0:
+                own = self._panels.wall == index
+                position = self.system.bodies.motions[body].position
+                centre[own] = to_world(centre[own], position, self.boundary.centres[body])
+                area[own] = directions_to_world(area[own], position)
+        pressure, filling = self.sample(centre)
+        pressure[(filling < 0.4) & (pressure < 0.0)] = 0.0  # within the water a wall's filling is one half
+        forces = pressure[:, None] * area
+        return {
+            wall.name: (
+                self.system.loads[index, : self.case.dimension].copy(),
+                forces[self._panels.wall == index].sum(axis=0),
+            )
+            for index, wall in enumerate(self.scene.walls)
+        }

@@ -1,0 +1,79 @@
+"""Simulation: errors of plugins are raised again as errors that name the plugin."""
+
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numba
+
+from sphframe.cases import Case
+from sphframe.errors import BrokenPluginError, SimulationError, SphframeError
+from sphframe.registry import COMPONENT_KINDS, Entry, available, find
+
+__all__ = ["naming_component", "naming_hook"]
+
+
+@contextmanager
+def naming_component(case: Case, *, running: bool) -> Iterator[None]:
+    """Turn what a component of the case raises, or fails to compile with, into an error that names it.
+
+    Raises
+    ------
+    BrokenPluginError: when nothing has run yet. SimulationError: when it is ``running``.
+    """
+    try:
+        yield
+    except (SphframeError, MemoryError):
+        raise
+    except Exception as error:
+        strangers = [find(kind, getattr(case, field).name) for field, kind in COMPONENT_KINDS.items()]
+        strangers = [entry for entry in strangers if entry.distribution != "sphframe"]
+        compiled = isinstance(error, numba.core.errors.NumbaError | SystemError)
+        if not compiled:
+            strangers = [entry for entry in strangers if _passed_through(error, entry)]
+        if not strangers:
+            raise
+        doing = "does not compile" if isinstance(error, numba.core.errors.NumbaError) else "failed"
+        text = (
+            f"{' or '.join(entry.label for entry in strangers)} {doing}: {type(error).__name__}: {_shortened(error)}\n"
+            "to see where, run sphframe verify NAME, or run with NUMBA_DISABLE_JIT=1, which is slow but debugs as"
+            " plain Python"
+        )
+        raise (SimulationError(text) if running else BrokenPluginError(text)) from error
+
+
+@contextmanager
+def naming_hook() -> Iterator[None]:
+    """Turn what an installed hook plugin raises into an error that names it.
+
+    Raises
+    ------
+    SimulationError: in its place.
+    """
+    try:
+        yield
+    except (SphframeError, MemoryError):
+        raise
+    except Exception as error:
+        for entry in available("hooks"):
+            if _passed_through(error, entry):
+                raise SimulationError(
+                    f"{entry.label} failed: {type(error).__name__}: {_shortened(error)}\n"
+                    f"what was computed is kept; fix the plugin or remove it (pip uninstall {entry.distribution})"
+                    " and continue with sphframe resume"
+                ) from error
+        raise
+
+
+def _passed_through(error: BaseException, entry: Entry) -> bool:
+    """Whether ``error`` was raised in, or by something called from, the module of ``entry``."""
+    package = entry.value.partition(":")[0].partition(".")[0]
+    frames = traceback.walk_tb(error.__traceback__)
+    return any(str(frame.f_globals.get("__name__")).partition(".")[0] == package for frame, _ in frames)
+
+
+def _shortened(error: BaseException) -> str:
+    """The first line of a message, and of a compiler's those that say what and where."""
+    first, *rest = [line.strip() for line in str(error).splitlines() if line.strip()] or [""]
+    telling = [line for line in rest if line.startswith(("NameError", "Unknown", "No implementation", "File"))]
+    return "; ".join([first, *telling[:3]])
