@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from sphframe.cases import Case
 from sphframe.errors import InputError, SimulationError
+from sphframe.neighbours import LargestMotion
 from sphframe.simulation.components import Components
 from sphframe.simulation.guards import check_state, check_time_step, check_traits
 from sphframe.simulation.initial_state import initial_system
@@ -59,6 +60,7 @@ class Simulation(Observation):
         self._lower, self._upper = (np.array(corner, dtype=np.float64) for corner in scene.domain)
         self.initial_energy = sum(self.energies().values())
         self.densities_outside = 0
+        self._motion = LargestMotion(0.0, 0.0)
         with self._adding_time_and_step():
             self._check()
 
@@ -73,9 +75,8 @@ class Simulation(Observation):
         """
         began = clock.perf_counter()
         with self._adding_time_and_step():
-            motion = self.system.largest_motion()
-            self.time_step = self._next_time_step(motion.speed)
-            if not self.system.neighbours_remain_valid(motion, 1.2 * self.time_step):
+            self.time_step = self._next_time_step(self._motion.speed)
+            if not self.system.neighbours_remain_valid(self._motion, 1.2 * self.time_step):
                 self.system.find_neighbours()
             self.between_steps = False
             with naming_component(self.case, running=True):
@@ -101,7 +102,7 @@ class Simulation(Observation):
         return left if left < 1.0000001 * step else step
 
     def _check(self) -> None:
-        """Check the new state; remove the particles that have left the domain, if the case says so."""
+        """Check the new state, remove particles that have left the domain if the case says so, measure the motion."""
         tolerated = check_state(self.system, self.case, self._lower, self._upper)
         self.densities_outside = tolerated.densities_outside
         if tolerated.outside is not None:
@@ -109,6 +110,7 @@ class Simulation(Observation):
                 raise SimulationError("all particles have left the domain; draw walls that hold the fluid")
             self.system.keep(~tolerated.outside)
             self.system.find_neighbours()
+        self._motion = self.system.largest_motion()
 
     @contextmanager
     def _adding_time_and_step(self) -> Iterator[None]:
@@ -181,6 +183,7 @@ class Simulation(Observation):
         """
         check_saved_state(state, self.state(), self.particle_count, self.ghost_count, self._lower, self._upper)
         self.system.restore(state)
+        self._motion = self.system.largest_motion()
         self.time, self.time_step, self.wall_clock, self.initial_energy = map(float, state["clocks"])
         self.step, self.samples, self.frames, self.densities_outside = map(int, state["counters"])
         self.between_steps = True

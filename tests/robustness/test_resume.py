@@ -190,7 +190,7 @@ def test_what_cannot_be_resumed_says_why(small: ModuleType, tmp_path: Path) -> N
 
     path.write_bytes(content)
     header = json.loads(zipfile.ZipFile(tmp_path / "other.nc.restart").read("checkpoint.json"))
-    assert header["format"] == 1
+    assert header["format"] == 2
 
 
 def test_an_older_copy_of_the_output_is_refused(small: ModuleType, tmp_path: Path) -> None:
