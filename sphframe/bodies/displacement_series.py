@@ -18,8 +18,8 @@ __all__ = ["DisplacementSeries"]
 class DisplacementSeries(RigidBody):
     """A body that follows the displacement in a file.
 
-    The file holds numbers in columns, separated by commas or blanks, ``#`` before comments: time (s), x (m) and, if
-    the body does more, y (m) and angle (rad) in 2-D or y and z (m) in 3-D. A quintic spline goes through all of them,
+    The file holds numbers in columns, separated by commas or blanks, ``#`` before comments: time (s), x (m) and,
+    optionally, y (m) and angle (rad) in 2-D or y and z (m) in 3-D. A quintic spline goes through all of them,
     so that velocity and acceleration are smooth; it begins and ends at rest, and the body rests outside the series.
     The displacement is measured from the first line, where the body is drawn.
 

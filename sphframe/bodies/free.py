@@ -26,10 +26,10 @@ class Free(RigidBody):
     gravity: m/s^2, downwards along y.
 
     The ghosts' pressure contains the wall's acceleration, and the acceleration follows from the pressure of the
-    evaluation before. That iteration converges when the body is heavier than the water that answers within one
-    evaluation. This is not the body's added mass, which sound carries to it, but a layer of a third of a particle
-    spacing around it: measured, a body is unstable below m = 0.34 rho dx times its wetted length. A floating body is
-    heavier than that as soon as its draught exceeds half a particle spacing.
+    evaluation before. This iteration converges when the body is heavier than the water whose pressure responds within
+    one evaluation. That is not the added mass of the body, which acts only after sound waves have passed, but a layer
+    of a third of a particle spacing around it: in tests, a body was unstable below m = 0.34 rho dx times its wetted
+    length. A floating body is heavier than that if its draught exceeds half a particle spacing.
     """
 
     mass: float

@@ -63,11 +63,11 @@ class RegularWavePaddle(RigidBody):
 
     @property
     def stroke(self) -> float:
-        """Way S of the paddle from end to end, m."""
+        """Stroke S of the paddle, from end to end, m."""
         return float(vars(self)["_stroke"])
 
     def motion(self, time: float, position: Array, velocity: Array, load: Array) -> Motion:
-        """Return the paddle's motion; it ignores the water."""
+        """Return the paddle's motion, which does not depend on the water."""
         omega, half = 2.0 * math.pi / self.period, 0.5 * self.stroke
         sin, cos = half * math.sin(omega * time), half * math.cos(omega * time)
         length = self.ramp_periods * self.period

@@ -72,7 +72,7 @@ class SolitaryWavePaddle(RigidBody):
 
     @property
     def stroke(self) -> float:
-        """Way of the paddle 2 A / (k d), m."""
+        """Stroke 2 A / (k d) of the paddle, m."""
         return 2.0 * self.wave_height / (self.wavenumber * self.depth)
 
     @property
@@ -86,7 +86,7 @@ class SolitaryWavePaddle(RigidBody):
         return self.mid_stroke_time + (x - middle) / (self.speed if speed is None else speed)
 
     def motion(self, time: float, position: Array, velocity: Array, load: Array) -> Motion:
-        """Return the paddle's motion; it ignores the water."""
+        """Return the paddle's motion, which does not depend on the water."""
         k, ratio = self.wavenumber, self.wave_height / self.depth
         phase = k * self.speed * (max(time, 0.0) - self.mid_stroke_time)
         theta = _solve(phase, ratio)
@@ -102,7 +102,7 @@ class SolitaryWavePaddle(RigidBody):
 
 
 def _solve(phase: float, ratio: float) -> float:
-    """Theta from theta + ratio tanh(theta) = phase; the left side is monotone and its Newton iteration safe."""
+    """Theta from theta + ratio tanh(theta) = phase; the left side is monotone, so Newton's iteration converges."""
     theta = phase / (1.0 + ratio) if abs(phase) < 1.0 + ratio else phase - math.copysign(ratio, phase)
     for _ in range(50):
         tanh = math.tanh(theta)

@@ -24,7 +24,7 @@ class SpringMass(RigidBody):
     mass: m, kg; ``stiffness``: k, N/m; ``threshold``: F_threshold, N; all per metre of width in 2-D.
 
     Departs from the paper: Eq. 26 as corrected (the threshold is subtracted only while it is exceeded), and the
-    velocity is set to zero at the stop, which its Eq. 28 leaves out: the wall would keep it while standing still.
+    velocity is set to zero at the stop, which its Eq. 28 omits: otherwise the wall at rest would keep a velocity.
 
     Source: X. Huang et al. (2019), doi:10.3390/w11051110, Eqs. 26-28; D. K. Liang et al. (2017),
     doi:10.1016/j.jfluidstructs.2016.12.009.

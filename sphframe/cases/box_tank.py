@@ -21,12 +21,12 @@ def box_tank(dimension: int, length: float, width: float, height: float) -> BoxW
 
 
 def water_box(dimension: int, length: float, width: float, height: float) -> BoxRegion:
-    """Return the water that fills a tank's left end up to ``length`` and ``height``."""
+    """Return the water at the left end of a tank, up to ``length`` and ``height``."""
     return BoxRegion(lower=(0.0,) * dimension, upper=with_width(dimension, length, width, height))
 
 
 def domain_above(tank: BoxWall, margin: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return the box that no particle may leave: the tank, a margin around it, and as much air again above it."""
+    """Return the box that no particle may leave: the tank with a margin around it, and as much air above it."""
     lower = tuple(low - margin for low in tank.lower)
     upper = tuple(high + margin for high in tank.upper)
     return lower, (*upper[:-1], 2.0 * tank.upper[-1])

@@ -17,18 +17,18 @@ __all__ = ["Case", "Guards", "Parameter", "parameters_of"]
 
 
 class Guards(BaseModel):
-    """What a run does with what is not physical. NaN and a vanishing time step always stop it."""
+    """What a run does when its state is not physical. NaN and a vanishing time step always stop it."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     domain: Literal["stop", "remove"] = "stop"
-    """at a particle that has left the domain: stop, or remove and count it"""
+    """when a particle has left the domain: stop, or remove and count it"""
     density: Literal["stop", "count"] = "stop"
-    """at a density outside the band: stop, or count the particles"""
+    """when a density lies outside the band: stop, or count the particles"""
     density_band: tuple[float, float] = (0.5, 1.5)
     """lowest and highest density over the reference density"""
     fallbacks: Literal["stop", "count"] = "count"
-    """at a share of wet ghosts above the limit that use the interpolator's fallback: stop, or only count them"""
+    """when the share of wet ghosts that use the interpolator's fallback exceeds the limit: stop, or only count them"""
     fallback_limit: float = Field(default=0.5, ge=0, le=1)
 
     @model_validator(mode="after")
@@ -40,7 +40,7 @@ class Guards(BaseModel):
 
 
 class Case(BaseModel, ABC):
-    """A case: its parameters are fields with units; :meth:`scene` draws it.
+    """A case: its parameters are fields with units, and :meth:`scene` returns what they describe.
 
     Raises
     ------
@@ -73,13 +73,13 @@ class Case(BaseModel, ABC):
         "balanced", "1", "how the hydrostatic pressure difference to the ghost is added"
     )
     ghost_velocity: Literal["corrected", "interpolated"] = quantity(
-        "corrected", "1", "velocity of the ghosts: corrected for what the weights miss at the wall, or as interpolated"
+        "corrected", "1", "velocity of the ghosts: corrected so that walls do no spurious work, or as interpolated"
     )
     interpolator: Component = quantity(Component(name="improved-shepard"), "1", "boundary interpolation method")
     kernel: Component = quantity(Component(name="gaussian"), "1", "smoothing kernel")
     equation_of_state: Component = quantity(Component(name="linear"), "1", "equation of state")
     integrator: Component = quantity(Component(name="symplectic"), "1", "time integration scheme")
-    guards: Guards = quantity(Guards(), "1", "what a run does with what is not physical")
+    guards: Guards = quantity(Guards(), "1", "what a run does when its state is not physical")
     time_step: float | None = quantity(None, "s", "fixed time step; by default adaptive by the Courant number", gt=0)
     courant_number: float | None = quantity(
         None, "1", "(c0 + |u|max) dt / h of the adaptive time step; by default the integrator's own", gt=0
@@ -111,26 +111,26 @@ class Case(BaseModel, ABC):
 
     @abstractmethod
     def scene(self) -> Scene:
-        """Draw the case: walls, fluid, bodies, probes."""
+        """Return the walls, fluid, bodies and probes of the case."""
 
     def reference_sound_speed(self, depth: float) -> float:
         """Return c0 in m/s: ``sound_speed``, or 20 sqrt(g H) for a still water ``depth`` H in m where it is None."""
         return self.sound_speed or 20.0 * math.sqrt(max(self.gravity, 1e-12) * depth)
 
     def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
-        """Only what was given: the rest are defaults."""
+        """Show the parameters that were given; all others have their defaults."""
         for name, value in super().__repr_args__():
             if name in self.model_fields_set:
                 given = isinstance(value, Component) and (value.model_dump() if value.options else value.name)
                 yield name, given or value
 
     def _repr_html_(self) -> str:
-        telling = {"interpolator", "hydrostatic_lift", "particle_spacing", "until", *self.model_fields_set}
-        telling |= type(self).model_fields.keys() - Case.model_fields.keys()
+        important = {"interpolator", "hydrostatic_lift", "particle_spacing", "until", *self.model_fields_set}
+        important |= type(self).model_fields.keys() - Case.model_fields.keys()
         every = parameters_of(self)
         title = f"{type(self).__name__}: {self.title}"
-        first = html_table(title, Parameter._fields, [p for p in every if p.name in telling])
-        rest = html_table("", Parameter._fields, [p for p in every if p.name not in telling])
+        first = html_table(title, Parameter._fields, [p for p in every if p.name in important])
+        rest = html_table("", Parameter._fields, [p for p in every if p.name not in important])
         return f"{first}<details><summary>other parameters</summary>{rest}</details>"
 
 
@@ -144,7 +144,9 @@ class Parameter(NamedTuple):
 
 
 def parameters_of(case: Case | type[Case]) -> list[Parameter]:
-    """The parameters of a case with their values, or of a class of cases with its defaults; the case's own come first.
+    """Return the parameters of a case with their values, or those of a case class with their defaults.
+
+    Parameters that only this case has come first.
 
     Examples
     --------

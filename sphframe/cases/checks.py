@@ -26,11 +26,11 @@ _MOST_WALL_POINTS = 1e8
 
 
 class CaseWarning(UserWarning):
-    """When the parameters of a case can be run, but are not likely to give what is wanted."""
+    """Warns that a case can be run, but is unlikely to give a useful result."""
 
 
 def check_case(case: Case) -> None:
-    """Check what one parameter alone cannot tell: components and their options, the scene, sizes, stability.
+    """Check what depends on several parameters: components with their options, the scene, sizes and stability.
 
     Warns
     -----
@@ -39,8 +39,8 @@ def check_case(case: Case) -> None:
 
     Raises
     ------
-    InputError: when parameters contradict each other; all that is found, one line each.
-    PluginError: when the only thing wrong is one component.
+    InputError: when parameters contradict each other; the message has one line for each error.
+    PluginError: when the only error is in a component.
     """
     errors = _component_errors(case)
     if not errors:
@@ -55,7 +55,7 @@ def check_case(case: Case) -> None:
     if errors:
         title = f"{type(case).__name__}: {len(errors)} things are wrong:"
         raise InputError("\n".join([title, *(f"  {error}" for error in errors)]))
-    for message in _doubts(case, scene):
+    for message in _reservations(case, scene):
         warnings.warn(message, CaseWarning, stacklevel=2)
 
 
@@ -75,7 +75,7 @@ def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
     shape_problems = [*_dimension_problems(dim, scene), *_name_problems(scene)]
     yield from shape_problems
     if case.gravity == 0.0 and case.sound_speed is None:
-        yield "gravity = 0 leaves no scale for the sound speed; give sound_speed, ten times the fastest flow or more"
+        yield "gravity = 0 gives no default sound speed; give sound_speed, ten times the largest flow speed or more"
     if spacing > scene.depth / 4.0:
         yield (
             f"particle_spacing = {spacing:g} m is more than a quarter of the water depth, {scene.depth:g} m;"
@@ -133,7 +133,7 @@ def _name_problems(scene: Scene) -> Iterator[str]:
     for what, names in named.items():
         for name, count in Counter(names).items():
             if count > 1:
-                yield f"{count} {what} are called {name!r}; give each a name of its own"
+                yield f"{count} {what} are called {name!r}; each needs a different name"
     for wall in scene.walls:
         if wall.body is not None and wall.body not in scene.bodies:
             known = ", ".join(scene.bodies) or "none"
@@ -145,7 +145,7 @@ def _output_problems(case: Case) -> Iterator[str]:
         interval = getattr(case, name)
         if case.until / interval > limit:
             yield (
-                f"{name} = {interval:g} s with until = {case.until:g} s asks for {case.until / interval:.2g} outputs;"
+                f"{name} = {interval:g} s with until = {case.until:g} s gives {case.until / interval:.2g} outputs;"
                 f" choose {case.until / limit:.2g} s or more"
             )
 
@@ -163,7 +163,7 @@ def _step_problems(case: Case, scene: Scene) -> Iterator[str]:
         return
     if not case.until < _MOST_STEPS * step:
         yield (
-            f"{parameter} with until = {case.until:g} s ask for more than {_MOST_STEPS:g} steps, which would never end;"
+            f"{parameter} with until = {case.until:g} s ask for more than {_MOST_STEPS:g} steps;"
             f" choose a time step of {case.until / _MOST_STEPS:.2g} s or more, or a smaller until"
         )
 
@@ -219,19 +219,19 @@ def _region_problems(case: Case, scene: Scene, index: int, region: Region) -> It
         )
 
 
-def _doubts(case: Case, scene: Scene) -> Iterator[str]:
+def _reservations(case: Case, scene: Scene) -> Iterator[str]:
     layers = scene.depth / case.particle_spacing
     if layers < 9.5:
         yield (
             f"particle_spacing = {case.particle_spacing:g} m leaves {layers:.3g} particles over the depth of"
-            f" {scene.depth:g} m; 10 or more are needed for a result worth having"
+            f" {scene.depth:g} m; 10 or more are needed for a useful result"
         )
     wave_speed = math.sqrt(case.gravity * scene.depth)
     sound_speed = case.reference_sound_speed(scene.depth)
     if sound_speed < 9.999 * wave_speed:
         yield (
-            f"sound_speed = {sound_speed:g} m/s is below 10 sqrt(g H) = {10 * wave_speed:.3g} m/s: densities will vary"
-            f" by more than a per cent"
+            f"sound_speed = {sound_speed:g} m/s is below 10 sqrt(g H) = {10 * wave_speed:.3g} m/s: the density will"
+            f" vary by more than one per cent"
         )
     integrator: Integrator = case.integrator.create("integrators")
     courant = _largest_courant_number(case, sound_speed)

@@ -1,4 +1,4 @@
-"""Cases: one of your own, given as data."""
+"""Cases: a case whose walls, fluid, bodies, probes and gauges are given as data."""
 
 from typing import ClassVar
 

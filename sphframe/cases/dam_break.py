@@ -22,18 +22,18 @@ Array = NDArray[np.float64]
 class DamBreak(Case):
     """A column of water, 1.2 m by 0.6 m, collapses and runs against a wall: section 4.2 of Huang et al. (2019).
 
-    The pressure at the start is that of the corrected series (:mod:`sphframe.cases.dam_break_series`), the gate being
-    gone at once. ``P1`` is Buchner's sensor, a disc of 90 mm centred 160 mm above the bed of the right wall (for
-    another water height: 0.15 H and 4/15 H), over which the pressure is averaged; ``P1-point`` is its centre alone.
-    ``P1-shifted`` is the same disc half its diameter lower, its top where the sensor's centre was: published
-    simulations of this experiment compare there (Adami et al. 2012, doi:10.1016/j.jcp.2012.05.005, who sample at
-    0.19 H, after M. Greco's finding that it agrees better), and pressure falls steeply with height there.
+    The pressure at the start is that of the corrected series (:mod:`sphframe.cases.dam_break_series`), as if the gate
+    were removed in an instant. ``P1`` is Buchner's sensor, a disc of 90 mm centred 160 mm above the bed of the right
+    wall (for another water height: 0.15 H and 4/15 H), over which the pressure is averaged; ``P1-point`` is its centre
+    alone. ``P1-shifted`` is the same disc half its diameter lower, its top where the sensor's centre was: published
+    simulations of this experiment compare there (Adami et al. 2012, doi:10.1016/j.jcp.2012.05.005, sample at 0.19 H,
+    since M. Greco found that it agrees better), and the pressure decreases steeply with height there.
 
     Diagnostics: ``front_position``, the x of the surge front, and ``column_height``, the height of the water at the
-    left wall. Both look at the water within max(H/20, 3 dx) of the bed (wall) and end at the first gap wider than two
-    smoothing lengths: particles nearer than that still act on each other, a splash drop ahead of the
-    surge does not count. Half a spacing is added, so that they start as L and H and the front at the wall is there
-    when it is within a spacing of ``tank_length``.
+    left wall. Both use the water within max(H/20, 3 dx) of the bed (wall) and end at the first gap wider than two
+    smoothing lengths: particles nearer than that still interact, and a drop ahead of the surge is not counted. Half a
+    spacing is added, so that they start as L and H and the front at the wall is there when it is within a spacing of
+    ``tank_length``.
 
     Source: Huang et al. (2019), doi:10.3390/w11051110, section 4.2; B. Buchner, Green water on ship-type offshore
     structures, PhD thesis, TU Delft (2002).

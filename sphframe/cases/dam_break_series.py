@@ -1,4 +1,4 @@
-"""Cases: pressure and density of a rectangular water column at the instant the gate is gone."""
+"""Cases: pressure and density of a rectangular water column at the instant at which the gate is removed."""
 
 import math
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ _NEGLIGIBLE = 40.0
 
 @dataclass(frozen=True)
 class WaterColumn:
-    """The column of a dam break, 0 <= x <= L and 0 <= y <= H, at the instant the gate is gone.
+    """The column of a dam break, 0 <= x <= L and 0 <= y <= H, at the instant at which the gate is removed.
 
     Its pressure obeys the Laplace equation, dp/dy = -rho g on the bed, dp/dx = 0 on the wall x = 0, p = 0 on the free
     sides x = L and y = H, and p = c0^2 (rho - rho0); Eqs. 23-25 of Huang et al. (2019)::

@@ -15,7 +15,7 @@ _LONGEST = 60
 
 
 def explain(error: ValidationError, model: type[BaseModel]) -> str:
-    """Return a message for people: what was given, what was expected, how to mend it; one line a problem.
+    """Return a message that says what was given, what was expected and how to fix it, one line per problem.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def _problems(error: ValidationError, model: type[BaseModel]) -> Iterator[str]:
     places = [detail["loc"] for detail in details]
     for detail in details:
         if any(len(place) > len(detail["loc"]) and place[: len(detail["loc"])] == detail["loc"] for place in places):
-            continue  # a list without its wrong items may be too short, which is not what is wrong
+            continue  # wrong items also make their list too short; only the items are reported
         place = _place(detail["loc"])
         given = detail["input"]
         kind = detail["type"]

@@ -12,11 +12,11 @@ __all__ = ["FloatingBody"]
 
 
 class FloatingBody(Case):
-    """A rectangular box floats in the middle of a tank, free to move and to turn, in two dimensions.
+    """A rectangular box floats in the middle of a tank, free to move and to rotate, in two dimensions.
 
     By Archimedes it floats with the draught T = (its density over the water's) times its height. Released at another
-    draught it heaves about that. Gauges ``left`` and ``right`` stand half-way between box and walls; the box is the
-    body ``box``, ``body_position`` its displacement from where it was drawn.
+    draught it heaves about this equilibrium. Gauges ``left`` and ``right`` stand half-way between box and walls; the
+    box is the body ``box``, ``body_position`` its displacement from where it was drawn.
     """
 
     title: ClassVar[str] = "box afloat in a tank"

@@ -14,7 +14,7 @@ __all__ = ["HydrostaticTank"]
 class HydrostaticTank(Case):
     """Water at rest, 1 m by 0.3 m, section 4.1 of Huang et al. (2019).
 
-    It starts from the compressible rest state, so nothing should move: whatever does is an error of the boundary.
+    It starts from the compressible rest state, so nothing should move: any motion is an error of the boundary.
     Probes P0..P3 lie on the left wall at 0, 1/3, 2/3 and 5/6 of the depth above the bed, where the rest pressure is
     2943, 1962, 981 and 490.5 Pa. P0 lies in the corner.
 

@@ -37,7 +37,7 @@ def load_case(
 
     Where the same parameter is given twice, overrides come before the preset, and the preset before the source.
 
-    Files are data: nothing in them is executed, and they name components by their installed names only.
+    A file is data: nothing in it is executed, and it names components by their installed names only.
 
     Raises
     ------
@@ -141,7 +141,7 @@ def _read_output(path: Path) -> tuple[str, dict[str, Any]]:
 def _refuse_addresses(
     source: str | Path, name: str, parameters: Mapping[str, Any], overrides: Mapping[str, Any]
 ) -> None:
-    """Refuse ``module:attribute`` in a file: a file that came from somewhere must not import code by its address."""
+    """Refuse ``module:attribute`` in a file: a file from an unknown source must not make sphframe import code."""
     named = {"case": name, **{key: value for key, value in parameters.items() if key not in overrides}}
     bodies = named.pop("bodies", None)
     if isinstance(bodies, Mapping):
@@ -149,8 +149,10 @@ def _refuse_addresses(
     for key, value in named.items():
         component = value.get("name") if isinstance(value, Mapping) else value
         if isinstance(component, str) and is_address(component):
-            how = "run it by that address" if key == "case" else f"give it outside: --set {key}={component}"
-            raise InputError(f"{source}: {key} = {component!r} names code by its address, not an installed name; {how}")
+            how = (
+                "give that address to run" if key == "case" else f"give it on the command line: --set {key}={component}"
+            )
+            raise InputError(f"{source}: {key} = {component!r} is the address of code, not an installed name; {how}")
 
 
 def _preset(model: type[Case], name: str | None) -> Mapping[str, Any]:

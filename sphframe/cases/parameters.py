@@ -53,7 +53,7 @@ class Derived:
 
 
 def quantity(default: Any, unit: str, description: str, **bounds: Any) -> Any:
-    """A parameter of a case with its unit; ``default`` may be ``...`` for a required one, or :class:`Derived`."""
+    """Declare a parameter with its unit; ``default`` may be ``...`` for a required one, or :class:`Derived`."""
     return Field(default, description=description, json_schema_extra={"unit": unit}, **bounds)
 
 
@@ -72,7 +72,7 @@ def unit_of(info: FieldInfo) -> str:
 
 
 def written(value: Any) -> str:
-    """A value as it would be given, a derived default as its formula."""
+    """Return a value as it would be given; for a derived default its formula."""
     if value is PydanticUndefined:
         return "(required)"
     if isinstance(value, Derived):

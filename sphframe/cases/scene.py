@@ -61,7 +61,7 @@ class Diagnostic:
 
 @dataclass(frozen=True)
 class Scene:
-    """What a case puts into the world, in SI units; gravity points along the last axis, downwards."""
+    """What is simulated, in SI units; gravity acts downwards along the last axis."""
 
     walls: tuple[Wall, ...]
     fluid: tuple[Region, ...]

@@ -25,8 +25,9 @@ class SolitaryWaveFlume(Case):
 
     The paddle starts at t = 0 by the convention of :class:`sphframe.bodies.SolitaryWavePaddle`, at x = 0 or up to half
     a particle spacing beside it, so that a whole number of particles fits between it and the seawall, which rises from
-    the bed at x = ``tank_length``. Recorded beside what every case records: ``gauge_elevation`` at gauges
-    G1, G2, ... along the flume, ``probe_pressure`` at P0, P1, ... on the seawall, and the diagnostic ``run_up``.
+    the bed at x = ``tank_length``. In addition to what every case records, the output holds
+    ``gauge_elevation`` at gauges G1, G2, ... along the flume, ``probe_pressure`` at P0, P1, ... on the seawall, and the
+    diagnostic ``run_up``.
     """
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space; wave flumes are two-dimensional")
@@ -80,7 +81,7 @@ class SolitaryWaveFlume(Case):
         travel: float = 0.0,
         seawall_body: str | None = None,
     ) -> Scene:
-        """Draw a flume whose seawall leans by ``angle`` (degrees, within the water) and may travel by ``travel`` m."""
+        """Return a flume with a seawall at ``angle`` (degrees, in the water) to the bed; it may move ``travel`` m."""
         length, depth, height = self.tank_length, self.depth, self.tank_height
         toe = np.array([length, 0.0])
         upward = np.array([-math.cos(math.radians(angle)), math.sin(math.radians(angle))])
@@ -120,9 +121,9 @@ class SolitaryWaveFlume(Case):
 def run_up_along(toe: Array, upward: Array, depth: float, spacing: float, ratio: float) -> Callable[[Fields], float]:
     """Return the function that measures the height of the water on a wall above still water, m; -depth where dry.
 
-    It is read on a line parallel to the wall, two smoothing lengths within the water, where the wall does not cut the
-    kernel: there the filling sum_j W_j dx^2 is one in the water and one half at its surface. Nearer to the wall, the
-    outermost column of particles may stand up to one spacing higher.
+    It is read on a line parallel to the wall, two smoothing lengths within the water, where the wall does not
+    truncate the kernel: there the filling sum_j W_j dx^2 is one in the water and one half at its surface. Nearer to the
+    wall, the outermost column of particles may stand up to one spacing higher.
 
     Parameters
     ----------

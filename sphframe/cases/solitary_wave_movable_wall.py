@@ -18,7 +18,7 @@ class SolitaryWaveMovableWall(SolitaryWaveFlume):
 
     The seawall is the body ``seawall``, whose displacement ``body_position`` starts at zero, and the wall of that name,
     with its ``wall_force``. It stands still until the force exceeds ``threshold_ratio`` times the hydrostatic force
-    rho g d^2 / 2 (:class:`sphframe.bodies.SpringMass`). The bed runs on behind it. Probe P0 lies on the bed at the
+    rho g d^2 / 2 (:class:`sphframe.bodies.SpringMass`). The bed continues behind it. Probe P0 lies on the bed at the
     toe of the wall where it is drawn; probes do not move.
 
     Departs from the paper, which does not give the wave's height: 0.3 d by default, with which the wall begins to move
@@ -56,7 +56,7 @@ class SolitaryWaveMovableWall(SolitaryWaveFlume):
     wall_mass: float = quantity(250.0, "kg m-1", "mass of the seawall per metre of width", gt=0)
     spring_stiffness: float = quantity(10.0, "N m-2", "stiffness of the spring per metre of width", ge=0)
     threshold_ratio: float = quantity(
-        1.1, "1", "force at which the seawall gives way, over the hydrostatic force", ge=0
+        1.1, "1", "force at which the seawall begins to move, over the hydrostatic force", ge=0
     )
     wall_travel: float = quantity(
         Derived("tank_length", lambda case: case.tank_length), "m", "length of the bed behind the seawall", gt=0

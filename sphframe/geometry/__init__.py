@@ -1,4 +1,4 @@
-"""Geometry: walls -> fluid lattice, ghost particles, mirror points."""
+"""Geometry: walls and regions, and the particles, ghosts, mirror points and panels that are placed on them."""
 
 from sphframe.geometry.frames import directions_to_world, to_body_frame, to_world
 from sphframe.geometry.ghosts import GhostPoints, wall_ghosts

@@ -40,8 +40,8 @@ class GhostPoints:
 def wall_ghosts(walls: tuple[Wall, ...], spacing: float, layers: int) -> GhostPoints:
     """Place the ghosts of all ``walls``: layers at (k + 1/2) spacings behind each, corners filled.
 
-    A candidate that another face of the same wall is nearer to, that is not behind its wall, or that coincides with
-    an earlier ghost (closer than half a spacing) is left out.
+    A position is left out if another face of the same wall is nearer to it, if it is not behind its wall, or if an
+    earlier ghost is closer than half a spacing.
     """
     dimension = walls[0].dimension
     positions, mirrors, reflections, owners = [], [], [], []

@@ -1,4 +1,4 @@
-"""Geometry: walls cut into panels, over which a pressure is integrated."""
+"""Geometry: walls are cut into panels, over which pressure is integrated."""
 
 import itertools
 from dataclasses import dataclass

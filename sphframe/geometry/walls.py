@@ -32,7 +32,7 @@ class PolygonWall(BaseModel):
     points: tuple[tuple[float, float], ...] = Field(min_length=2)
     closed: bool = False
     body: str | None = None
-    """name of the body that carries the wall; None is at rest"""
+    """name of the body that carries the wall; None means a wall at rest"""
 
     @model_validator(mode="after")
     def _distinct_points(self) -> "PolygonWall":
@@ -113,7 +113,7 @@ class PolygonWall(BaseModel):
             sine = across / (length * np.maximum(distance, 1e-300))
             tie = np.abs(distance - best) <= TOLERANCE * length
             closer = (distance < best) & ~tie
-            # at a corner two segments are equally near: the one seen more squarely decides
+            # at a corner two segments are equally near: the one whose normal is closer to the offset decides
             take = closer | (tie & (np.abs(sine) > np.abs(side)))
             side[take] = sine[take]
             open_end = ((k == 0) & (raw < 0.0)) | ((k == len(start) - 1) & (raw > 1.0))
@@ -148,7 +148,7 @@ class BoxWall(BaseModel):
         return len(self.lower)
 
     def outline(self) -> list[Array]:
-        """Polylines (k, dim) that draw the box's edges, but for those between open faces only."""
+        """Polylines (k, dim) that draw the edges of the box, without those between two open faces."""
         low, high = np.array(self.lower), np.array(self.upper)
         lines = []
         for axis in range(self.dimension):
@@ -210,10 +210,10 @@ def _corner_ghosts(corner: Array, t1: Array, n1: Array, t2: Array, n2: Array, de
     turn = math.atan2(t1[0] * t2[1] - t1[1] * t2[0], float(t1 @ t2))
     if turn <= TOLERANCE:
         return np.empty((0, 2))
-    if abs(turn - math.pi / 2) < 1e-6:  # a right angle: carry on the lattice of both faces
+    if abs(turn - math.pi / 2) < 1e-6:  # a right angle: continue the lattice of both faces
         a, b = np.meshgrid(depths, depths, indexing="ij")
         return corner + a.reshape(-1, 1) * n1 + b.reshape(-1, 1) * n2
-    # rings of whole numbers of ghosts, each as wide as their volume needs: too many here would push the corner empty
+    # rings with whole numbers of ghosts, each as wide as the volume of its ghosts: more would repel the fluid
     rings = []
     spacing = 2.0 * depths[0]
     inner, ghosts = 0.0, 0

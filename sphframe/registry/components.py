@@ -14,11 +14,11 @@ __all__ = ["check", "create", "load"]
 
 
 def load(kind: str, name: str) -> Any:
-    """Load the component ``name``, or ``module:attribute``, and check that it is what its kind demands.
+    """Load the component ``name``, or ``module:attribute``, and check it against the interface of its kind.
 
     Returns
     -------
-    A concrete subclass of the kind's interface; for hooks whatever the entry point names.
+    A concrete subclass of the interface of the kind; for hooks the object that the entry point names.
 
     Raises
     ------
@@ -40,7 +40,7 @@ def load(kind: str, name: str) -> Any:
 
 
 def check(kind: str) -> list[Entry]:
-    """List the components of ``kind`` as :func:`available` does, after an attempt to load each of them."""
+    """Try to load each component of ``kind``, and list them as :func:`available` does, with their errors."""
     for entry in available(kind):
         try:
             load(kind, entry.name)
@@ -63,7 +63,7 @@ def create(kind: str, name: str, /, **options: Any) -> Any:
     >>> create("equations_of_state", "tait", gamma=7)
     Tait(gamma=7.0)
     """
-    from sphframe.registry.options import construct  # pydantic is not worth importing for a list of names
+    from sphframe.registry.options import construct  # a list of names does not need pydantic
 
     component = load(kind, name)
     return construct(component, find(kind, name).title, options)
@@ -112,7 +112,7 @@ def _interface(kind: str) -> type | None:
 
 
 def _check_api_version(entry: Entry, module_name: str, cause: BaseException | None) -> None:
-    """Refuse a plugin outside the window, looking for SPHFRAME_API in its module and the packages above."""
+    """Refuse a plugin whose SPHFRAME_API, in its module or the packages above, is not supported."""
     parts = module_name.split(".")
     modules = [sys.modules.get(".".join(parts[:n])) for n in range(len(parts), 0, -1)]
     versions = [getattr(module, "SPHFRAME_API", None) for module in modules]
@@ -132,7 +132,7 @@ def _check_api_version(entry: Entry, module_name: str, cause: BaseException | No
         ) from cause
     upgrade = f" (python -m pip install --upgrade {entry.distribution})" if entry.distribution else ""
     raise ApiVersionError(
-        f"{written_for}, and this sphframe serves {OLDEST_API_VERSION[0]}.{OLDEST_API_VERSION[1]} and later:"
+        f"{written_for}, and this sphframe supports {OLDEST_API_VERSION[0]}.{OLDEST_API_VERSION[1]} and later:"
         f" upgrade the plugin{upgrade}"
     ) from cause
 
@@ -160,11 +160,11 @@ def _remedy(entry: Entry, error: BaseException | None = None) -> str:
     module_name = entry.value.partition(":")[0]
     missing = error.name if isinstance(error, ImportError) and error.name else None
     if missing and missing.partition(".")[0] == "sphframe":
-        return "it asks sphframe for something that this version does not have: upgrade the one that is older"
+        return "it imports something that this version of sphframe does not have: upgrade the older of the two"
     if isinstance(error, ModuleNotFoundError) and missing and missing != module_name.partition(".")[0]:
         return f"install what provides the module {missing!r}"
     if not entry.distribution:
-        return "check its spelling, and that its folder is on PYTHONPATH" if error else "mend it there"
+        return "check its spelling, and that its folder is on PYTHONPATH" if error else "fix it there"
     return (
         f"reinstall or upgrade it (python -m pip install --upgrade --force-reinstall {entry.distribution}),"
         f" or tell its authors"

@@ -24,11 +24,11 @@ class Entry:
 
     Attributes
     ----------
-    name: what it is asked for by.
+    name: the name by which it is chosen.
     kind: one of :data:`KINDS`.
-    value: where it is, ``module:attribute``.
-    distribution, version: what declares it; empty for a ``module:attribute`` given in place of a name.
-    error: why it cannot be used, as far as is known without loading it or from the last attempt to load it.
+    value: its address, ``module:attribute``.
+    distribution, version: the distribution that declares it; empty for a ``module:attribute`` given in place of a name.
+    error: why it cannot be used; known without loading it for clashes of names, else from the last attempt to load it.
     """
 
     name: str
@@ -40,17 +40,17 @@ class Entry:
 
     @property
     def title(self) -> str:
-        """What it is, in words."""
+        """Kind and name, for messages."""
         return f"{LABELS[self.kind]} {self.name!r}"
 
     @property
     def label(self) -> str:
-        """What it is and where it comes from, in words."""
+        """Kind, name and distribution, for messages."""
         return f"{self.title} of {_origin(self)}" if self.distribution else self.title
 
 
 class Listing(list[Entry]):
-    """Entries, one a line where they are shown."""
+    """A list of entries that is shown with one entry per line."""
 
     def __repr__(self) -> str:
         """Name, distribution and error of each."""
@@ -117,7 +117,7 @@ def is_address(name: str) -> bool:
 
 
 def remember(entry: Entry, error: str | None) -> None:
-    """Keep why ``entry`` could not be loaded, to be listed with it; None when it could."""
+    """Store why ``entry`` could not be loaded, for listings; None means that it could."""
     key = replace(entry, error=None)
     if error is None:
         _errors.pop(key, None)
@@ -126,7 +126,7 @@ def remember(entry: Entry, error: str | None) -> None:
 
 
 def clear() -> None:
-    """Forget what is installed and which components are broken, after something was installed or mended."""
+    """Forget what is installed and which components are broken, after something was installed or fixed."""
     importlib.invalidate_caches()
     _declared.cache_clear()
     _errors.clear()
@@ -140,7 +140,7 @@ def _declared() -> dict[str, list[Entry]]:
     for distribution in metadata.distributions():
         entries = list(_entries_of(distribution))
         if entries:
-            # A distribution that lies on the path twice is the first one, as for the import system.
+            # Of a distribution that is on the path twice, the first counts, as for imports.
             identity = re.sub(r"[-_.]+", "-", entries[0].distribution).lower()
             if identity not in seen:
                 seen.add(identity)
@@ -153,7 +153,7 @@ def _entries_of(distribution: metadata.Distribution) -> Iterator[Entry]:
     text = ""
     try:
         text = distribution.read_text("entry_points.txt") or ""
-        # Asked one by one, and only those that mention sphframe: entry_points() dies of the first malformed file.
+        # Each is read by itself, and only if it mentions sphframe: metadata.entry_points() fails at the first bad file.
         points = [point for point in distribution.entry_points if point.group in _GROUPS] if "sphframe." in text else []
     except (ValueError, TypeError, AttributeError):
         warnings.warn(

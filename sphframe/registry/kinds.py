@@ -5,7 +5,7 @@ __all__ = ["API_VERSION", "COMPONENT_KINDS", "DISTRIBUTIONS", "KINDS", "LABELS",
 API_VERSION = (1, 0)
 """version of the plugin interface that this sphframe offers"""
 OLDEST_API_VERSION = (1, 0)
-"""oldest version of the plugin interface that this sphframe still serves"""
+"""oldest version of the plugin interface that this sphframe still supports"""
 
 LABELS = {
     "interpolators": "interpolator",
@@ -37,4 +37,4 @@ DISTRIBUTIONS = {
     ("interpolators", "mdbc"): "sphframe-mdbc",
     ("interpolators", "adami"): "sphframe-adami",
 }
-"""distributions of this project that are installed apart from it: what to install for a name that is missing"""
+"""the distribution to install for the name of a method of this project that is missing"""

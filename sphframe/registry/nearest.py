@@ -1,4 +1,4 @@
-"""Registry: the nearest of some names to one that was misspelt."""
+"""Registry: find the name that is most similar to a misspelt one."""
 
 import difflib
 from collections.abc import Iterable
@@ -7,7 +7,7 @@ __all__ = ["did_you_mean", "nearest"]
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
-    """Return the candidate most like ``name``, whatever its case and hyphens, or None when none is alike.
+    """Return the candidate most similar to ``name``, ignoring case and hyphens, or None when none is similar.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Registry: the options of a component, checked before it is made.
+"""Registry: the options of a component are checked before it is made.
 
 Options are the parameters of the component's constructor, most simply the fields of a dataclass.
 """
@@ -20,7 +20,7 @@ _CONFIG = ConfigDict(allow_inf_nan=False, arbitrary_types_allowed=True)
 
 
 def construct(component: type, label: str, given: Mapping[str, Any]) -> Any:
-    """Make ``component`` with the options ``given``; ``label`` says in messages what it is.
+    """Make ``component`` with the options ``given``; ``label`` names it in messages.
 
     Raises
     ------
@@ -57,14 +57,14 @@ def construct(component: type, label: str, given: Mapping[str, Any]) -> Any:
 
 
 def _checked(what: str, value: Any, hint: Any) -> Any:
-    """Return ``value`` as an object of the type ``hint``: "4" and 4 are floats, true is none."""
+    """Return ``value`` as an object of the type ``hint``; "4" and 4 are accepted as floats, true is not."""
     choices = [hint, *typing.get_args(hint)]
     expected = hint.__name__ if isinstance(hint, type) else str(hint).replace("typing.", "")
     if isinstance(value, bool) and (int in choices or float in choices) and bool not in choices:
         raise InputError(f"{what} = {value!r}: input should be a number; expected {expected}")
     try:
         adapter = TypeAdapter[Any](hint, config=_CONFIG)
-    except PydanticUserError:  # a type with a configuration of its own, or none that pydantic can check
+    except PydanticUserError:  # pydantic cannot check this type
         return value
     try:
         return adapter.validate_python(value)
@@ -80,7 +80,7 @@ def _parameters(component: type) -> Mapping[str, inspect.Parameter]:
 
 
 def _hints(component: type) -> dict[str, Any]:
-    """Types of the options; none where an annotation cannot be evaluated, and then the constructor must judge."""
+    """Types of the options; empty where an annotation cannot be evaluated; then only the constructor checks."""
     source = component if dataclasses.is_dataclass(component) else component.__init__  # type: ignore[misc]
     try:
         return typing.get_type_hints(source, include_extras=True)

@@ -126,7 +126,7 @@ BAD_PARAMETERS: list[tuple[str, dict[str, Any], str]] = [
     ("dam-break", {"dimension": 4}, "dimension = 4 must be 2 or 3"),
     ("dam-break", {"dimension": "2D"}, "dimension = '2D' must be 2 or 3"),
     ("dam-break", {"gravity": -9.81}, "gravity = -9.81 must be greater than or equal to 0"),
-    ("dam-break", {"gravity": 0}, "gravity = 0 leaves no scale for the sound speed"),
+    ("dam-break", {"gravity": 0}, "gravity = 0 gives no default sound speed"),
     ("dam-break", {"slip": "half"}, "slip = 'half' must be 'free' or 'no'"),
     ("dam-break", {"hydrostatic_lift": 2}, "hydrostatic_lift = 2 must be 'balanced' or 'mirror'"),
     ("dam-break", {"smoothing_length_ratio": 0.5}, "smoothing_length_ratio = 0.5 must be greater than or equal to 1"),
@@ -197,10 +197,13 @@ BAD_FILES: list[tuple[str, str]] = [
     (TANK.replace("[1.5, 0.5]", "[1, 2, 3]"), r"walls\[0\].points\[3\] = \[1, 2, 3\] must have 2 or fewer entries"),
     (TANK.replace("[1.3, 0.3], [0, 0.3]]", "]"), r"fluid\[0\].points = .* must have 3 or more entries"),
     ("walls = []\nfluid = []\nparticle_spacing = 0.1\nuntil = 1", "walls = .* must have 1 or more entries"),
-    ('case = "os:PathLike"', "names code by its address"),
-    ('case = "dam-break"\ninterpolator = "my.module:Method"', "give it outside: --set interpolator=my.module:Method"),
-    ('case = "dam-break"\n[kernel]\nname = "my_module:Kernel"', "names code by its address"),
-    (TANK + "[bodies.paddle]\nname = 'my_module:Body'", "bodies.paddle = 'my_module:Body' names code"),
+    ('case = "os:PathLike"', "is the address of code"),
+    (
+        'case = "dam-break"\ninterpolator = "my.module:Method"',
+        "give it on the command line: --set interpolator=my.module:Method",
+    ),
+    ('case = "dam-break"\n[kernel]\nname = "my_module:Kernel"', "is the address of code"),
+    (TANK + "[bodies.paddle]\nname = 'my_module:Body'", "bodies.paddle = 'my_module:Body' is the address"),
     (TANK.replace("until = 0.5", ""), "until is missing; give it a value: time at which the run ends"),
 ]
 

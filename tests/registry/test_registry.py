@@ -126,7 +126,7 @@ def test_a_broken_plugin_stays_listed_with_its_error_and_breaks_nothing_else(ins
     ("source", "address", "message"),
     [
         ("import a_missing_library", "bad:Bad", "install what provides the module 'a_missing_library'"),
-        ("from sphframe import Nonsense", "bad:Bad", "asks sphframe for something that this version does not have"),
+        ("from sphframe import Nonsense", "bad:Bad", "imports something that this version of sphframe does not have"),
         ("raise SystemExit(3)", "bad:Bad", "SystemExit: 3"),
         ("Bad = (", "bad:Bad", "SyntaxError"),
         ("Bad = 1", "bad:Good", "has no attribute 'Good'"),

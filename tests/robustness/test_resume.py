@@ -279,7 +279,7 @@ def test_code_named_by_address_needs_trust(small: ModuleType, tmp_path: Path) ->
     with pytest.raises(KeyboardInterrupt):
         run("hydrostatic-tank", output=path, threads=1, particle_spacing=0.03, tank_length=0.3, kernel=address,
             hooks=[small.At(5, interrupt)])  # fmt: skip
-    with pytest.raises(InputError, match="names code by its address"):
+    with pytest.raises(InputError, match="is the address of code"):
         resume(path, threads=1)
     with pytest.raises(KeyboardInterrupt):
         resume(path, threads=1, trusted=True, hooks=[small.At(10, interrupt)])
