@@ -7,7 +7,7 @@ from sphframe.interfaces.equation_of_state import EquationOfState
 from sphframe.interfaces.integrator import Integrator, System
 from sphframe.interfaces.kernel import CompiledKernel, Kernel
 from sphframe.interfaces.rigid_body import Motion, RigidBody
-from sphframe.interfaces.run_view import CaseView, Fields, ResumableRun, RunView, SceneView
+from sphframe.interfaces.run_view import Fields, ResumableRun, RunView
 from sphframe.interfaces.traits import DRY, OK, SINGULAR, TOO_FEW, EvaluationPoint, Status, Traits
 
 __all__ = [
@@ -16,7 +16,6 @@ __all__ = [
     "SINGULAR",
     "TOO_FEW",
     "BoundaryInterpolator",
-    "CaseView",
     "CompiledKernel",
     "EquationOfState",
     "EvaluationPoint",
@@ -27,7 +26,6 @@ __all__ = [
     "ResumableRun",
     "RigidBody",
     "RunView",
-    "SceneView",
     "Status",
     "System",
     "Traits",

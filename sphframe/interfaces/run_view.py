@@ -4,27 +4,18 @@ Every listener to the events of a run (:mod:`sphframe.hooks`) receives the simul
 are read-only: a listener observes and never changes the run. Only the checkpoint writer needs :class:`ResumableRun`.
 """
 
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sphframe.interfaces.rigid_body import Motion, RigidBody
+from sphframe.interfaces.rigid_body import Motion
 
-__all__ = [
-    "CaseView",
-    "ComponentView",
-    "DiagnosticView",
-    "Fields",
-    "GaugeView",
-    "GhostView",
-    "ProbeView",
-    "ResumableRun",
-    "RunView",
-    "SceneView",
-    "WallView",
-]
+if TYPE_CHECKING:  # the types alone: at run time the interfaces know no other room
+    from sphframe.boundary.boundary import Boundary
+    from sphframe.cases import Case, Scene
+
+__all__ = ["Fields", "ResumableRun", "RunView"]
 
 Array = NDArray[np.float64]
 
@@ -38,186 +29,16 @@ class Fields(NamedTuple):
     pressure: Array
 
 
-class ComponentView(Protocol):
-    """A component that a case has chosen."""
-
-    @property
-    def name(self) -> str:
-        """Name in the registry."""
-
-    @property
-    def options(self) -> Mapping[str, Any]:
-        """Options by name."""
-
-
-class CaseView(Protocol):
-    """The parameters of the case that runs, in SI units; see :class:`sphframe.Case`."""
-
-    @property
-    def title(self) -> str:
-        """One line that says what the case is."""
-
-    @property
-    def dimension(self) -> int:
-        """Dimension of space, 2 or 3."""
-
-    @property
-    def particle_spacing(self) -> float:
-        """Spacing of the particles at the start, m."""
-
-    @property
-    def reference_density(self) -> float:
-        """Density at zero pressure, kg/m^3."""
-
-    @property
-    def gravity(self) -> float:
-        """Acceleration of gravity, m/s^2."""
-
-    @property
-    def interpolator(self) -> ComponentView:
-        """Boundary interpolation method."""
-
-    @property
-    def kernel(self) -> ComponentView:
-        """Smoothing kernel."""
-
-    @property
-    def equation_of_state(self) -> ComponentView:
-        """Equation of state."""
-
-    @property
-    def integrator(self) -> ComponentView:
-        """Time integration scheme."""
-
-    @property
-    def until(self) -> float:
-        """Time at which the run ends, s."""
-
-    @property
-    def frame_interval(self) -> float:
-        """Time between frames, s."""
-
-    @property
-    def probe_interval(self) -> float:
-        """Time between samples, s."""
-
-    def model_dump(self, *, mode: str = "python") -> dict[str, Any]:
-        """Return all parameters by name; with ``mode="json"`` as JSON types."""
-
-
-class WallView(Protocol):
-    """A wall."""
-
-    @property
-    def name(self) -> str:
-        """Name of the wall."""
-
-    @property
-    def body(self) -> str | None:
-        """Name of the body that carries the wall; None for a fixed wall."""
-
-    def outline(self) -> list[Array]:
-        """Return the polylines (m, dim) that draw the wall, m."""
-
-
-class ProbeView(Protocol):
-    """A pressure probe."""
-
-    @property
-    def name(self) -> str:
-        """Name of the probe."""
-
-    @property
-    def position(self) -> Sequence[float]:
-        """Position (dim,), m."""
-
-    @property
-    def radius(self) -> float:
-        """Radius over which the probe averages, m."""
-
-
-class GaugeView(Protocol):
-    """A gauge of the free-surface elevation."""
-
-    @property
-    def name(self) -> str:
-        """Name of the gauge."""
-
-    @property
-    def position(self) -> Sequence[float]:
-        """Horizontal position (dim - 1,), m."""
-
-
-class DiagnosticView(Protocol):
-    """A number that the case computes from the fluid."""
-
-    @property
-    def name(self) -> str:
-        """Name of the variable."""
-
-    @property
-    def unit(self) -> str:
-        """SI unit."""
-
-    @property
-    def long_name(self) -> str:
-        """What it is, as the label of an axis."""
-
-
-class SceneView(Protocol):
-    """The geometry and the measuring points of the case."""
-
-    @property
-    def walls(self) -> Sequence[WallView]:
-        """Walls."""
-
-    @property
-    def probes(self) -> Sequence[ProbeView]:
-        """Pressure probes."""
-
-    @property
-    def gauges(self) -> Sequence[GaugeView]:
-        """Free-surface gauges."""
-
-    @property
-    def bodies(self) -> Mapping[str, RigidBody]:
-        """Bodies that carry walls, by name."""
-
-    @property
-    def diagnostics(self) -> Sequence[DiagnosticView]:
-        """Numbers that the case computes from the fluid."""
-
-    @property
-    def depth(self) -> float:
-        """Still water depth, m."""
-
-    @property
-    def domain(self) -> tuple[Sequence[float], Sequence[float]]:
-        """Lower and upper corner of the domain, (dim,) each, m."""
-
-
-class GhostView(Protocol):
-    """The ghost particles of all walls."""
-
-    @property
-    def position(self) -> Array:
-        """Present positions (g, dim), m."""
-
-    @property
-    def mirror(self) -> Array:
-        """Present mirror points (g, dim), m."""
-
-
 @runtime_checkable
 class RunView(Protocol):
     """A running simulation of a case, as a listener to its events sees it."""
 
     @property
-    def case(self) -> CaseView:
+    def case(self) -> "Case":
         """The case that runs."""
 
     @property
-    def scene(self) -> SceneView:
+    def scene(self) -> "Scene":
         """Its geometry and measuring points."""
 
     @property
@@ -265,7 +86,7 @@ class RunView(Protocol):
         """Smoothing length, m."""
 
     @property
-    def ghosts(self) -> GhostView:
+    def ghosts(self) -> "Boundary":
         """The ghost particles."""
 
     def fields(self) -> Fields:

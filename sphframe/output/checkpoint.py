@@ -15,15 +15,18 @@ import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sphframe.errors import InputError
-from sphframe.interfaces import CaseView, ResumableRun
+from sphframe.interfaces import ResumableRun
 from sphframe.output.files import replaced_as_a_whole
 from sphframe.output.provenance import distributions, software
+
+if TYPE_CHECKING:
+    from sphframe.cases import Case
 
 __all__ = ["Checkpoint", "changed_versions", "checkpoint_path", "read_checkpoint", "write_checkpoint"]
 
@@ -117,7 +120,7 @@ def _array(content: bytes, kind: str, shape: list[int]) -> NDArray[Any]:
     return np.frombuffer(content, dtype=kind).reshape(shape).copy()
 
 
-def changed_versions(checkpoint: Checkpoint, case: CaseView) -> list[str]:
+def changed_versions(checkpoint: Checkpoint, case: "Case") -> list[str]:
     """Return what is not the version that wrote ``checkpoint``, as texts ``numpy 2.1.0, now 2.2.0``."""
     before, now = checkpoint.versions, _versions(case)
     return [
@@ -127,7 +130,7 @@ def changed_versions(checkpoint: Checkpoint, case: CaseView) -> list[str]:
     ]
 
 
-def _versions(case: CaseView) -> dict[str, str]:
+def _versions(case: "Case") -> dict[str, str]:
     """Versions of all that the bits of a result depend on."""
     return {
         **distributions(case),

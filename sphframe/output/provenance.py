@@ -3,14 +3,17 @@
 import importlib.metadata
 import platform
 from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
 
 from sphframe import registry
-from sphframe.interfaces import CaseView
+
+if TYPE_CHECKING:
+    from sphframe.cases import Case
 
 __all__ = ["distributions", "registered_name", "software"]
 
 
-def distributions(case: CaseView) -> dict[str, str]:
+def distributions(case: "Case") -> dict[str, str]:
     """Return the versions of sphframe and of all distributions that the case and its components come from."""
     versions = {"sphframe": importlib.metadata.version("sphframe")}
     for kind, name in _chosen(case):
@@ -32,7 +35,7 @@ def registered_name(case: type) -> str:
     return next((entry.name for entry in registry.available("cases") if entry.value == target), target)
 
 
-def _chosen(case: CaseView) -> Iterator[tuple[str, str]]:
+def _chosen(case: "Case") -> Iterator[tuple[str, str]]:
     yield "cases", registered_name(type(case))
     for field, kind in registry.COMPONENT_KINDS.items():
         yield kind, getattr(case, field).name
