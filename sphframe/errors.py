@@ -1,7 +1,7 @@
-"""Errors: what sphframe raises on purpose, each with a message that says how to mend it.
+"""Errors: what sphframe raises on purpose, each with a message that says how to fix it.
 
-Every one is a :class:`SphframeError`; the command line prints its message without a traceback and exits with its
-``exit_code``. Anything else that escapes from sphframe is a bug.
+Every error is a :class:`SphframeError`. The command line prints its message without a traceback and exits with its
+``exit_code``. Any other exception that leaves sphframe is a defect.
 """
 
 from typing import ClassVar
@@ -22,29 +22,29 @@ __all__ = [
 
 
 class SphframeError(Exception):
-    """Base of all: catch it to catch everything that sphframe raises on purpose."""
+    """Base class of all errors that sphframe raises on purpose."""
 
     exit_code: ClassVar[int] = 2
-    """what the command line exits with: 2 nothing was run, 3 a run went wrong"""
+    """exit code of the command line: 2 if nothing was run, 3 if a run went wrong"""
 
 
 class InputError(SphframeError, ValueError):
-    """When a parameter, an option or an input file is not valid; nothing has been run or written."""
+    """A parameter, an option or an input file is not valid; nothing has been run or written."""
 
 
 class OutputError(SphframeError):
-    """When a file cannot be written, or cannot be read as one that sphframe wrote."""
+    """A file cannot be written, or is not one that sphframe wrote."""
 
 
 class SimulationError(SphframeError):
-    """When a run has gone wrong: NaN, a particle outside the domain, a time step that collapsed.
+    """A run has gone wrong: NaN, a particle outside the domain, a time step that collapsed.
 
     Parameters
     ----------
     message: what happened and its likely causes.
     time: simulated time, in s.
     step: number of the step.
-    place: where, in m (dim,), when it happened at one place.
+    place: position (dim,), in m, if the error belongs to one.
     """
 
     exit_code = 3
@@ -73,28 +73,28 @@ class SimulationError(SphframeError):
 
 
 class PluginError(SphframeError):
-    """When a component cannot be had from the registry; one of the errors below says why."""
+    """A component cannot be loaded from the registry; the subclasses say why."""
 
 
 class UnknownComponentError(PluginError, LookupError):
-    """When no installed distribution offers a component of the name asked for."""
+    """No installed distribution offers a component of the requested name."""
 
 
 class BrokenPluginError(PluginError):
-    """When an installed component cannot be loaded or is not what it claims to be; its cause is ``__cause__``."""
+    """An installed component cannot be loaded or is not of the declared kind; ``__cause__`` is the reason."""
 
 
 class ClashingPluginError(PluginError):
-    """When several installed distributions claim the name asked for."""
+    """Several installed distributions offer a component of the requested name."""
 
 
 class ApiVersionError(PluginError):
-    """When a plugin was written for another version of sphframe's plugin interface."""
+    """A plugin was written for another version of sphframe's plugin interface."""
 
 
 class PluginWarning(UserWarning):
-    """When a plugin nobody asked for by name (a hook) cannot be used; the run goes on without it."""
+    """An installed hook cannot be used; the run goes on without it, since it was not requested by name."""
 
 
 class ResumeWarning(UserWarning):
-    """When a run is continued by other versions than began it: its results may differ in the last digits or more."""
+    """A run is continued with other versions than those that started it: its results may differ."""

@@ -28,7 +28,7 @@ __all__ = ["hook_manager", "hookimpl", "hookspec"]
 
 hookspec = pluggy.HookspecMarker("sphframe")
 hookimpl = pluggy.HookimplMarker("sphframe")
-"""marks a function as a listener to the event of its name; it may leave out arguments it does not need"""
+"""marks a function as a listener to the event of its name; the function may omit arguments that it does not need"""
 
 
 class Events:
@@ -36,38 +36,38 @@ class Events:
 
     @hookspec
     def sphframe_run_started(self, simulation: RunView) -> None:
-        """Listen to the start of a run: the initial state is complete, no step has been made."""
+        """Called at the start of a run: the initial state is complete, no step has been made."""
 
     @hookspec
     def sphframe_step_completed(self, simulation: RunView) -> None:
-        """Listen to the end of each time step. Called often: return quickly."""
+        """Called after each time step. It is called often, so it must return quickly."""
 
     @hookspec
     def sphframe_probes_due(self, simulation: RunView) -> None:
-        """Listen to the times at which probes, energies and diagnostics are sampled, the start included."""
+        """Called when probes, energies and diagnostics are sampled, the first time at the start."""
 
     @hookspec
     def sphframe_frame_due(self, simulation: RunView) -> None:
-        """Listen to the times at which all particles are stored, the start included."""
+        """Called when all particles are stored, the first time at the start."""
 
     @hookspec
     def sphframe_run_finished(self, simulation: RunView) -> None:
-        """Listen to the regular end of a run."""
+        """Called at the regular end of a run."""
 
     @hookspec
     def sphframe_run_failed(self, simulation: RunView, error: BaseException) -> None:
-        """Listen to the end of a run by ``error``, an interruption by the user included. Close what is open."""
+        """Called when ``error``, or an interruption by the user, ends a run. Close open files here."""
 
 
 def hook_manager(plugins: Iterable[object] = ()) -> pluggy.PluginManager:
-    """Return the manager that tells events to ``plugins`` and to all installed hook plugins.
+    """Return the manager that passes events to ``plugins`` and to all installed hook plugins.
 
-    ``hook_manager(...).hook.sphframe_run_started(simulation=simulation)`` tells one event to all. An installed hook
-    plugin that cannot be used is left out with a :class:`~sphframe.errors.PluginWarning`: nobody asked for it by name.
+    ``hook_manager(...).hook.sphframe_run_started(simulation=simulation)`` passes one event to all of them. An installed
+    hook plugin that cannot be used is left out with a :class:`~sphframe.errors.PluginWarning`.
 
     Parameters
     ----------
-    plugins: listeners of the caller, told in this order and before the installed ones.
+    plugins: listeners of the caller; they are called in this order and before the installed ones.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def hook_manager(plugins: Iterable[object] = ()) -> pluggy.PluginManager:
             _register(manager, load("hooks", entry.name), entry)
         except PluginError as error:
             warnings.warn(f"the run goes on without a plugin: {error}", PluginWarning, stacklevel=2)
-    for plugin in reversed(list(plugins)):  # pluggy tells the last registered first
+    for plugin in reversed(list(plugins)):  # pluggy calls the last registered first
         _register(manager, plugin, None)
     return manager
 

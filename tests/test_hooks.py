@@ -42,7 +42,7 @@ class Recorder:
         self.heard.append(error)
 
 
-def test_every_event_is_told_to_every_listener_in_the_order_given():
+def test_every_listener_receives_every_event_in_the_given_order():
     heard: list[Any] = []
 
     class Second(Recorder):

@@ -13,7 +13,7 @@ __all__ = ["animate_command"]
 
 
 def animate_command(path: Path, *, field: str, output: Path | None, frames_per_second: float) -> None:
-    """Write a film of a run, finished or still going."""
+    """Write a film of a run that is complete or still running."""
     target = output or path.with_suffix(".mp4")
     console = Console(stderr=True)
     began = time.monotonic()
@@ -26,4 +26,6 @@ def animate_command(path: Path, *, field: str, output: Path | None, frames_per_s
             track=lambda times: track(times, "drawing", console=console, disable=not console.is_terminal),
         )
     elapsed = max(time.monotonic() - began, 1e-9)
-    print(f"wrote {target}: {count} frames, {count / frames_per_second:.1f} s, drawn at {count / elapsed:.0f} a second")
+    print(
+        f"wrote {target}: {count} frames, {count / frames_per_second:.1f} s, drawn at {count / elapsed:.0f} per second"
+    )

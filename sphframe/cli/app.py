@@ -57,7 +57,7 @@ app = typer.Typer(
 
 
 def main() -> None:
-    """Run the command line; raises SystemExit with 0, 1 (a defect), 2 (input, files), 3 (a run gone wrong) or 130."""
+    """Run the command line; raises SystemExit with 0, 1 (a defect), 2 (input, files), 3 (a run went wrong) or 130."""
     app()
 
 
@@ -180,7 +180,7 @@ def _reproduce(
     workers: Workers = None,
     scheduler: Scheduler = None,
 ) -> None:
-    """Reproduce the paper: all its runs, a report with every figure and table, and what became of its claims."""
+    """Reproduce the paper: all its runs, and a report with every figure, every table and a verdict on each claim."""
     from sphframe.cli.reproduce import reproduce_command
 
     reproduce_command(
@@ -210,7 +210,7 @@ def _plot(
         Path | None, typer.Option("--output", "-o", metavar="FILE", help=".png, .pdf or .svg; by default FILE.png")
     ] = None,
 ) -> None:
-    """Draw a run: particles at several times, probes beside reference series, energies."""
+    """Draw a run: particles at several times, probes with reference series, energies."""
     from sphframe.cli.plot import plot_command
 
     plot_command(file, field=field, times=times or [], references=references or [], surface=surface, output=output)
@@ -288,7 +288,7 @@ def _show(
 @app.command("verify")
 def _verify(
     names: Annotated[list[str] | None, typer.Argument(metavar="NAME...", help="by default all methods")] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="print JSON in place of a table")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="print JSON instead of a table")] = False,
 ) -> None:
     """Test interpolation methods against their declared traits."""
     from sphframe.cli.verify import verify_command
@@ -298,8 +298,8 @@ def _verify(
 
 @app.command("new-plugin")
 def _new_plugin(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="of the method: lower-case words joined by hyphens")],
-    folder: Annotated[Path, typer.Option(help="where the folder sphframe-NAME is made")] = Path(),
+    name: Annotated[str, typer.Argument(metavar="NAME", help="name of the method: lower-case words joined by hyphens")],
+    folder: Annotated[Path, typer.Option(help="folder in which sphframe-NAME is made")] = Path(),
     licence: Annotated[str, typer.Option(help="BSD-3-Clause, MIT or none")] = "BSD-3-Clause",
     author: Annotated[str, typer.Option(help="named in pyproject.toml and in the licence")] = "",
 ) -> None:
@@ -312,7 +312,7 @@ def _new_plugin(
 @app.command("bench")
 def _bench(
     json_file: Annotated[
-        Path | None, typer.Option("--json", metavar="FILE", help="write everything to this file as well")
+        Path | None, typer.Option("--json", metavar="FILE", help="also write all results to this file")
     ] = None,
     particles: Annotated[
         list[str] | None,
@@ -330,7 +330,7 @@ def _bench(
         ),
     ] = None,
 ) -> None:
-    """Measure speed, memory and start-up on this machine, beside bare reference loops (some four minutes)."""
+    """Measure speed, memory and start-up on this machine, beside bare reference loops (about four minutes)."""
     from sphframe.cli.bench import bench_command
 
     bench_command(particles=particles or [], threads=threads or [], only=only or [], json_file=json_file)

@@ -22,7 +22,7 @@ __all__ = ["bench_command"]
 def bench_command(
     *, particles: Sequence[str], threads: Sequence[str], only: Sequence[str], json_file: Path | None
 ) -> None:
-    """Measure, print tables, and write JSON if asked to."""
+    """Measure, print tables, and write JSON if a file is given."""
     counts = _whole_numbers("--particles", particles) or [45_000]
     parallel = _whole_numbers("--threads", threads)
     sections = [name for text in only for name in text.split(",") if name]
@@ -58,18 +58,18 @@ def _check_target(path: Path) -> None:
 
 @contextmanager
 def _shown_progress() -> Iterator[Callable[[str, float | None], None]]:
-    """Show what is being measured: on a terminal as it goes on, elsewhere a line for each new thing."""
+    """Show what is being measured: on a terminal continuously, elsewhere a line for each new measurement."""
     log = console_log()
     if log.is_terminal:
         with log.status("starting") as status:
             yield lambda text, part: status.update(text if part is None else f"{text} {100.0 * part:.0f}%")
         return
-    told = ""
+    shown = ""
 
     def tell(text: str, part: float | None) -> None:
-        nonlocal told
-        if text != told:
-            told = text
+        nonlocal shown
+        if text != shown:
+            shown = text
             log.print(text, markup=False)
 
     yield tell
@@ -85,7 +85,7 @@ def _tables(report: Report) -> Iterator[Table]:
     yield machine
     if report.steps:
         yield _steps(report)
-        yield _alone(report)
+        yield _single_parts(report)
     if report.methods:
         yield _methods(report)
     if report.memory:
@@ -98,7 +98,7 @@ def _steps(report: Report) -> Table:
     parts = (*PARTS, "output")
     table = _table(
         "Dam break: median (lowest-highest) of a step with its share of lists and output;"
-        " M/s: fluid-particle right-hand sides, millions a second; the parts in %",
+        " M/s: fluid-particle right-hand sides, millions per second; the parts in %",
         *("flow", "particles", "threads", "step, ms", "M/s", "speed-up", *parts),
     )
     for cost in report.steps:
@@ -112,11 +112,11 @@ def _steps(report: Report) -> Table:
     return table
 
 
-def _alone(report: Report) -> Table:
+def _single_parts(report: Report) -> Table:
     table = _table(
-        "Alone, ms: all rates once with their share of lists, and the bare reference loops, in the same turns",
+        "Single parts, ms: all rates once with their share of lists, and the bare reference loops, alternately",
         *("flow", "particles", "threads", "evaluation", "bare gradient", "bare rates", "evaluation / bare"),
-        *("list build", "steps a list", "probe sample", "frame"),
+        *("list build", "steps per list", "probe sample", "frame"),
     )
     for cost in report.steps:
         served = f"{cost.steps / cost.builds:.1f}" if cost.builds else f"over {cost.steps}"
@@ -132,8 +132,8 @@ def _alone(report: Report) -> Table:
 
 def _methods(report: Report) -> Table:
     table = _table(
-        "Interpolation methods, dam break at rest, one thread, processor's time",
-        *("method", "particles", "wet points", "neighbours", "us a point", "filling, ms", "step, ms", "boundary, %"),
+        "Interpolation methods, dam break at rest, one thread, processor time",
+        *("method", "particles", "wet points", "neighbours", "us per point", "filling, ms", "step, ms", "boundary, %"),
     )
     for cost in report.methods:
         table.add_row(
@@ -145,7 +145,7 @@ def _methods(report: Report) -> Table:
 
 def _memory(report: Report) -> Table:
     names = list(report.memory[0].arrays)
-    table = _table("Memory, bytes a particle", "dimension", "particles", *names, "all arrays", "resident growth")
+    table = _table("Memory, bytes per particle", "dimension", "particles", *names, "all arrays", "resident growth")
     for cost in report.memory:
         resident = "unknown" if cost.resident is None else f"{cost.resident:.0f}"
         table.add_row(

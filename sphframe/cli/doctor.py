@@ -20,7 +20,7 @@ from sphframe.registry import KINDS, check
 
 __all__ = ["doctor_command"]
 
-numba: Any = typed_numba  # its settings and its threading layer have no types
+numba: Any = typed_numba  # the types of its settings and its threading layer are unknown
 _PACKAGES = ("numpy", "scipy", "numba", "llvmlite", "xarray", "netCDF4", "pydantic", "matplotlib")
 
 
@@ -49,7 +49,7 @@ def doctor_command() -> None:
         console.print(f"{kind}: {', '.join(entry.name for entry in entries if entry.error is None) or 'none'}")
     if broken:
         raise typer.Exit(1)
-    console.print("all is well")
+    console.print("no problem found")
 
 
 def _version(package: str) -> str:
@@ -72,12 +72,12 @@ def _threading_layer() -> str:
     try:
         add_up(np.ones(8))
         return str(numba.threading_layer())
-    except Exception as error:  # whatever a broken installation does is what is to be reported
+    except Exception as error:  # report whatever a broken installation raises
         return f"broken: {type(error).__name__}: {error}"
 
 
 def _cache() -> str:
-    """Where compiled loops are kept, and how much they take."""
+    """Folder and size of the cache of compiled loops."""
     folder = Path(numba.config.CACHE_DIR or Path(sphframe.__file__).parent)
     files = [file for pattern in ("*.nbi", "*.nbc") for file in folder.rglob(pattern)]
     megabytes = sum(file.stat().st_size for file in files) / 1e6

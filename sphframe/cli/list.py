@@ -10,7 +10,7 @@ __all__ = ["list_command"]
 
 
 def list_command(kind: str | None) -> None:
-    """Print the components of one kind or of all, with what provides them."""
+    """Print the components of one kind or of all kinds, with the distributions that provide them."""
     table = Table(box=None, pad_edge=False)
     for heading in ("kind", "name", "from", ""):
         table.add_column(heading, overflow="fold")

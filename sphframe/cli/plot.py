@@ -18,7 +18,7 @@ def plot_command(
     surface: bool,
     output: Path | None,
 ) -> None:
-    """Draw a run, finished or still going."""
+    """Draw a run that is complete or still running."""
     target = output or path.with_suffix(".png")
     with open_dataset(path) as dataset:
         series = [one for source in references for one in references_for(dataset, source)]

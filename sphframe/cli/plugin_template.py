@@ -85,12 +85,12 @@ from sphframe import OK, BoundaryInterpolator, CompiledKernel, Traits, WeightsFu
 
 __all__ = ["@CLASS@"]
 
-SPHFRAME_API = @API@  # the version of the plugin interface that this was written for
+SPHFRAME_API = @API@  # the version of the plugin interface for which this was written
 
 
 @dataclass(frozen=True)
 class @CLASS@(BoundaryInterpolator):
-    """Gaussian weights of the distance: a start, to be replaced by your formula.
+    """Gaussian weights of the distance: an example, to be replaced by your formula.
 
     With r_min the distance of the nearest particle, which keeps exp() from underflowing::
 
@@ -100,7 +100,7 @@ class @CLASS@(BoundaryInterpolator):
     width: float = 0.3
     """width of the Gaussian over the cut-off radius R, positive"""
 
-    # what the method promises; "sphframe verify @NAME@" proves it, and tells what it keeps besides
+    # the declared traits; "sphframe verify @NAME@" tests them, and lists further traits that the method has
     traits = Traits(non_negative=True, range_restricted=True, volume_independent=True)
 
     def __post_init__(self) -> None:
@@ -135,7 +135,7 @@ from sphframe.testing import parametrize_with_checks
 
 
 @parametrize_with_checks([@CLASS@(), @CLASS@(width=0.5)])
-def test_keeps_its_promises(method, check):
+def test_has_its_traits(method, check):
     check(method)
 """
 

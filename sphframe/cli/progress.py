@@ -1,4 +1,4 @@
-"""CLI: what a run shows while it goes."""
+"""CLI: the progress display of a run."""
 
 import time
 from collections import deque
@@ -14,20 +14,20 @@ from sphframe.interfaces import RunView
 __all__ = ["ProgressDisplay"]
 
 _REFRESH = 0.1  # s
-_STRETCH = 100  # refreshments over which rates are taken
+_WINDOW = 100  # refreshes over which rates are taken
 
 
 class ProgressDisplay:
-    """A hook plugin that shows step, simulated time, time step, rate, the time left, and what is wrong.
+    """A hook plugin that shows step, simulated time, time step, rate, remaining time and warnings.
 
-    Rate and time left are those of the last ten seconds: neither what the first step compiled nor what a resumed run
-    had done before counts. What is wrong are the counts of :func:`sphframe.analysis.concerns`.
+    Rate and remaining time are computed from the last ten seconds, so the compilation in the first step and the steps
+    before a resumed run do not count. The warnings are those of :func:`sphframe.analysis.concerns`.
 
-    On a terminal a bar; elsewhere, such as in a log file, a line for every tenth of the run.
+    On a terminal it is a bar; elsewhere, such as in a log file, it is a line for every tenth of the run.
 
     Parameters
     ----------
-    console: where to show it.
+    console: where the display is printed.
     """
 
     def __init__(self, console: Console) -> None:
@@ -35,7 +35,7 @@ class ProgressDisplay:
         self._progress: Progress | None = None
         self._task = TaskID(0)
         self._tenths = self._outside = 0
-        self._seen: deque[tuple[float, int, float]] = deque(maxlen=_STRETCH)  # wall clock, step, simulated time
+        self._seen: deque[tuple[float, int, float]] = deque(maxlen=_WINDOW)  # wall clock, step, simulated time
 
     @hookimpl
     def sphframe_run_started(self, simulation: RunView) -> None:
@@ -46,16 +46,16 @@ class ProgressDisplay:
                 BarColumn(),
                 TextColumn("{task.percentage:3.0f}%"),
                 TextColumn("{task.description}", markup=False),
-                TextColumn("{task.fields[wrong]}", style="yellow", markup=False),
+                TextColumn("{task.fields[warnings]}", style="yellow", markup=False),
                 console=self._console,
                 transient=True,
             )
-            self._task = self._progress.add_task("starting", total=simulation.case.until, wrong="")
+            self._task = self._progress.add_task("starting", total=simulation.case.until, warnings="")
             self._progress.start()
 
     @hookimpl
     def sphframe_frame_due(self, simulation: RunView) -> None:
-        """Count the particles behind walls, which is too dear for every step."""
+        """Count the particles behind walls, which takes too long for every step."""
         self._outside = simulation.particles_outside()
 
     @hookimpl
@@ -67,13 +67,13 @@ class ProgressDisplay:
             self._seen.append((now, simulation.step, simulation.time))
         if self._progress is not None:
             if due:
-                state, wrong = self._state(simulation, now), "; ".join(self._wrong(simulation))
-                self._progress.update(self._task, completed=simulation.time, description=state, wrong=wrong)
+                state, warnings = self._state(simulation, now), "; ".join(self._warnings(simulation))
+                self._progress.update(self._task, completed=simulation.time, description=state, warnings=warnings)
             return
         tenths = int(10.0 * simulation.time / simulation.case.until)
         if tenths > self._tenths:
             self._tenths = tenths
-            parts = [f"{10 * tenths:3d}%  {self._state(simulation, now)}", *self._wrong(simulation)]
+            parts = [f"{10 * tenths:3d}%  {self._state(simulation, now)}", *self._warnings(simulation)]
             self._console.print("; ".join(parts), markup=False)
 
     @hookimpl
@@ -99,7 +99,7 @@ class ProgressDisplay:
         left = (until - simulation.time) * (now - began) / (simulation.time - then)
         return f"{text}, {(simulation.step - step) / (now - began):.0f} steps/s, {timedelta(seconds=round(left))} left"
 
-    def _wrong(self, simulation: RunView) -> list[str]:
+    def _warnings(self, simulation: RunView) -> list[str]:
         return concerns(
             outside=self._outside,
             removed=simulation.removed_count,

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from sphframe.cli.run import console_log, finish, go
+from sphframe.cli.run import console_log, report_run, run_with_progress
 from sphframe.output import CheckpointWriter
 from sphframe.simulation.run import prepare_resume
 
@@ -12,7 +12,7 @@ __all__ = ["resume_command"]
 def resume_command(
     path: Path, *, threads: int | None, trusted: bool, checkpoint_every: float, checkpoint_interval: float | None
 ) -> None:
-    """Continue a run from its last checkpoint, and say what happened and what was written."""
+    """Continue a run from its last checkpoint; print its key figures and the files written."""
     log = console_log()
     simulation, writer = prepare_resume(path, trusted=trusted, threads=threads)
     checkpoints = CheckpointWriter(writer, every=checkpoint_every or None, interval=checkpoint_interval)
@@ -20,5 +20,5 @@ def resume_command(
         f"{simulation.case.title}: continues at t = {simulation.time:.4g} of {simulation.case.until:.4g} s,"
         f" step {simulation.step:,}"
     )
-    go(simulation, writer, checkpoints, log)
-    finish(simulation.case, writer.path)
+    run_with_progress(simulation, writer, checkpoints, log)
+    report_run(simulation.case, writer.path)

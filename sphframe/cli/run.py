@@ -13,13 +13,13 @@ from rich.table import Table
 from sphframe.analysis import summary
 from sphframe.cases import Case, CaseWarning, load_case
 from sphframe.cli.progress import ProgressDisplay
-from sphframe.cli.values import look_here_for_code
+from sphframe.cli.values import allow_imports_from_here
 from sphframe.errors import InputError, OutputError, ResumeWarning
 from sphframe.hooks import hook_manager
 from sphframe.output import CheckpointWriter, NetCDFWriter, open_dataset
 from sphframe.simulation import Simulation
 
-__all__ = ["console_log", "finish", "go", "picture_of", "run_command"]
+__all__ = ["console_log", "picture_of", "report_run", "run_command", "run_with_progress"]
 
 
 def run_command(
@@ -33,9 +33,9 @@ def run_command(
     checkpoint_every: float,
     checkpoint_interval: float | None,
 ) -> None:
-    """Run a case and say what happened and what was written."""
+    """Run a case; print its key figures and the files written."""
     log = console_log()
-    look_here_for_code(overrides.values())
+    allow_imports_from_here(overrides.values())
     case = load_case(source, preset=preset, overrides=overrides)
     path = output or Path(f"{_stem(source)}.nc")
     if path.suffix != ".nc":
@@ -54,24 +54,26 @@ def run_command(
         f"{simulation.fluid_count:,} fluid and {simulation.ghost_count:,} ghost particles, {simulation.threads}"
         f" thread{'s' * (simulation.threads > 1)}, ready after {time.monotonic() - began:.1f} s"
     )
-    go(simulation, writer, checkpoints, log)
-    finish(case, path)
+    run_with_progress(simulation, writer, checkpoints, log)
+    report_run(case, path)
 
 
 def console_log() -> Console:
-    """Return where a command says what it does; warnings are said every time."""
+    """Return the console on which a command reports its progress; show repeated warnings too."""
     warnings.simplefilter("always", CaseWarning)
     warnings.simplefilter("always", ResumeWarning)
     return Console(stderr=True, highlight=False, soft_wrap=True)
 
 
 def picture_of(path: Path) -> Path:
-    """Return where the picture of the run in ``path`` goes."""
+    """Return the path of the picture of the run in ``path``."""
     return path.with_suffix(".png")
 
 
-def go(simulation: Simulation, writer: NetCDFWriter, checkpoints: CheckpointWriter, log: Console) -> None:
-    """Run, and say what is left when the run does not come to its end."""
+def run_with_progress(
+    simulation: Simulation, writer: NetCDFWriter, checkpoints: CheckpointWriter, log: Console
+) -> None:
+    """Run with a progress display; if the run does not complete, print which files remain."""
     try:
         simulation.run(hook_manager([writer, checkpoints, ProgressDisplay(log)]))
     except BaseException:
@@ -82,8 +84,8 @@ def go(simulation: Simulation, writer: NetCDFWriter, checkpoints: CheckpointWrit
         raise
 
 
-def finish(case: Case, path: Path) -> None:
-    """Print what happened and draw the picture."""
+def report_run(case: Case, path: Path) -> None:
+    """Print the key figures of the run in ``path`` and draw its picture."""
     screen = Console(highlight=False, soft_wrap=True)
     with open_dataset(path) as dataset:
         screen.print(_table(case, summary(dataset)))
@@ -98,7 +100,7 @@ def finish(case: Case, path: Path) -> None:
 
 
 def _stem(source: str) -> str:
-    """The name of the output for a case's name, ``module:Class`` or file."""
+    """The output's name, without its suffix, for a case given by name, ``module:Class`` or file."""
     return Path(source.rpartition(":")[2]).stem
 
 
@@ -110,7 +112,7 @@ def _described(case: Case) -> str:
 
 
 def _table(case: Case, figures: Mapping[str, Any]) -> Table:
-    """What happened, from :func:`sphframe.analysis.summary`."""
+    """The key figures of :func:`sphframe.analysis.summary`."""
     table = Table(box=None, show_header=False, pad_edge=False)
     table.add_column(style="bold")
     table.add_column()
@@ -127,7 +129,7 @@ def _table(case: Case, figures: Mapping[str, Any]) -> Table:
     if figures["particles_removed"]:
         table.add_row("left the domain", f"{figures['particles_removed']} particles, removed")
     if figures["densities_outside"]:
-        table.add_row("odd densities", f"up to {figures['densities_outside']} particles outside the band")
+        table.add_row("densities out of range", f"up to {figures['densities_outside']} particles")
     statuses = ", ".join(f"{name} {100 * share:.2f} %" for name, share in figures["statuses"].items() if share)
     table.add_row("ghosts", statuses)
     table.add_row(

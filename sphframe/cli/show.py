@@ -28,7 +28,7 @@ def show_command(name: str, preset: str | None) -> None:
 
 
 def _show_case(model: type[Case], name: str, case: Case | None) -> None:
-    """Print parameters with their values in ``case``, or their defaults; the case's own come first."""
+    """Print the parameters with their values in ``case``, or with their defaults; the case's own come first."""
     console = Console(highlight=False)
     console.print(f"{name}: {model.title}\n", markup=False)
     console.print(_prose(model.__doc__) + "\n", markup=False)
@@ -57,7 +57,7 @@ def _show_component(kind: str, name: str) -> None:
 
 
 def _prose(docstring: str | None) -> str:
-    """A docstring without examples and markup, paragraphs of prose on one line, equations and lists as they are."""
+    """A docstring without examples and markup: prose paragraphs on one line, equations and lists unchanged."""
     text = inspect.cleandoc(docstring or "").partition("Examples\n---")[0].strip()
     text = re.sub(r":\w+:`~?([^`]+)`", r"\1", text).replace("``", "")
     as_written = re.compile(r"^\s|\n\s|\n---")

@@ -9,13 +9,13 @@ from typing import Any
 from sphframe.errors import InputError
 from sphframe.registry import is_address
 
-__all__ = ["look_here_for_code", "read_assignments"]
+__all__ = ["allow_imports_from_here", "read_assignments"]
 
 
 def read_assignments(assignments: Iterable[str], options: Mapping[str, str | None]) -> dict[str, Any]:
-    """Return the parameters of ``KEY=VALUE`` texts and of options of the same names (None: not given).
+    """Return the parameters that ``KEY=VALUE`` texts and options give; an option of None was not given.
 
-    A value is read as TOML (0.01, true, "text", [1, 2], {name = "sfdi"}) and, where it is not, as a text.
+    A value is read as TOML (0.01, true, "text", [1, 2], {name = "sfdi"}); if it is not valid TOML, it is a text.
 
     Raises
     ------
@@ -38,8 +38,8 @@ def read_assignments(assignments: Iterable[str], options: Mapping[str, str | Non
     return parameters
 
 
-def look_here_for_code(names: Iterable[Any]) -> None:
-    """Let modules in the working directory be found, after all installed ones, where a name is ``module:attribute``."""
+def allow_imports_from_here(names: Iterable[Any]) -> None:
+    """Add the working directory to the end of the import path if a name has the form ``module:attribute``."""
     if any(isinstance(name, str) and is_address(name) for name in names) and os.getcwd() not in sys.path:
         sys.path.append(os.getcwd())
 

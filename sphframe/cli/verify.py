@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from sphframe.cli.values import look_here_for_code
+from sphframe.cli.values import allow_imports_from_here
 from sphframe.errors import InputError
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def verify(names: Sequence[str] = (), *, as_json: bool = False) -> int:
     """
     if find_spec("hypothesis") is None:
         raise InputError("the verification suite needs hypothesis: python -m pip install 'sphframe[testing]'")
-    look_here_for_code(names)
+    allow_imports_from_here(names)
     from sphframe.testing import verify as reports_of
 
     if as_json:
@@ -85,7 +85,7 @@ def _print(reports: "Sequence[Report]") -> None:
     methods = [report for report in reports if report.kind == "interpolators"]
     if methods:
         console.print(_table(methods))
-        console.print("yes: promised and held; (yes): held though not promised; -: not promised; BROKEN: see below\n")
+        console.print("yes: declared and held; (yes): held though not declared; -: not declared; BROKEN: see below\n")
     for report in reports:
         if report.kind != "interpolators":
             console.print(Text(_line(report)))
@@ -96,7 +96,8 @@ def _print(reports: "Sequence[Report]") -> None:
             if result.verdict == "broken":
                 console.print(Text.assemble(_BROKEN, f"{report.name}, {result.check}\n{result.failure}\n"))
     count = sum(report.broken for report in reports)
-    console.print(f"{count} of {len(reports)} break a promise" if count else f"all {len(reports)} keep their promises")
+    verdict = f"{count} of {len(reports)} violate" if count else f"all {len(reports)} have"
+    console.print(f"{verdict} their declared traits")
 
 
 def _table(reports: "Sequence[Report]") -> Table:

@@ -1,4 +1,4 @@
-"""CLI: ``sphframe watch``: a page on this machine that shows a run while it goes."""
+"""CLI: ``sphframe watch``: a page on this machine that shows a run while it is running."""
 
 import contextlib
 import errno
@@ -18,16 +18,16 @@ _HOST = "127.0.0.1"
 
 
 class WatchServer(ThreadingHTTPServer):
-    """Serves the page at ``/``, what is on it at ``/state.json`` and ``/picture.png``; to this machine only.
+    """Serves the page at ``/`` and its content at ``/state.json`` and ``/picture.png``, to this machine only.
 
     Parameters
     ----------
-    run: what to show.
-    port: 0 for any that is free.
+    run: the run to show.
+    port: port of the page; 0 for any free one.
 
     Raises
     ------
-    InputError: the port cannot be had.
+    InputError: the port cannot be used.
     """
 
     daemon_threads = True
@@ -39,13 +39,13 @@ class WatchServer(ThreadingHTTPServer):
         except OSError as error:
             taken = error.errno == errno.EADDRINUSE
             raise InputError(
-                f"port {port} {'is taken by another program' if taken else f'cannot be had: {error.strerror}'};"
-                " give another --port, or --port 0 for any that is free"
+                f"port {port} {'is taken by another program' if taken else f'cannot be used: {error.strerror}'};"
+                " give another --port, or --port 0 for any free one"
             ) from None
 
     @property
     def address(self) -> str:
-        """Where the page is."""
+        """Address of the page."""
         return f"http://{_HOST}:{self.server_port}/"
 
 
@@ -54,7 +54,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     def do_GET(self) -> None:
         if self.headers.get("Host") not in {f"{name}:{self.server.server_port}" for name in (_HOST, "localhost")}:
-            self.send_error(403)  # a page from elsewhere, whose name was made to lead here
+            self.send_error(403)  # the request of a foreign page whose host name resolves to this machine
             return
         match self.path.partition("?")[0]:
             case "/":
@@ -75,7 +75,7 @@ class _Handler(BaseHTTPRequestHandler):
                 self.send_error(404)
 
     def _answer(self, kind: str, content: bytes) -> None:
-        with contextlib.suppress(ConnectionError):  # the browser did not wait
+        with contextlib.suppress(ConnectionError):  # the browser has closed the connection
             self.send_response(200)
             self.send_header("Content-Type", kind)
             self.send_header("Content-Length", str(len(content)))
@@ -84,11 +84,11 @@ class _Handler(BaseHTTPRequestHandler):
             self.wfile.write(content)
 
     def log_message(self, *_: Any) -> None:
-        """Say nothing: the page asks every second."""
+        """Log nothing: the page sends a request every second."""
 
 
 def watch_command(path: Path, *, field: str, port: int, open_browser: bool) -> None:
-    """Show a run, finished or still going, until Ctrl-C."""
+    """Show a run that is complete or still running, until Ctrl-C."""
     with WatchServer(LiveRun(path, field=field), port) as server, contextlib.suppress(KeyboardInterrupt):
         print(f"{path} is shown at {server.address} (Ctrl-C ends this)", flush=True)
         if open_browser:

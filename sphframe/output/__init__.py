@@ -1,4 +1,4 @@
-"""Output: a run becomes one NetCDF file that xarray opens at any moment."""
+"""Output: writes a run into one NetCDF file, which xarray can open at any time."""
 
 from sphframe.output.checkpoint_writer import CheckpointWriter
 from sphframe.output.reader import open_dataset

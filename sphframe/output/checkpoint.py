@@ -1,11 +1,12 @@
-"""Output: checkpoints, from which a run that was stopped or killed continues to the same bits.
+"""Output: checkpoints, from which a run that was stopped or killed continues with the same bits.
 
-A checkpoint lies beside the output, ``run.nc.restart`` beside ``run.nc``: a ZIP archive, uncompressed, of raw arrays in
-little-endian byte order, one member each, and ``checkpoint.json`` with their types and shapes and with the versions of
-all that computed them. Its check sums tell a damaged one. It is data: nothing in it can execute.
+A checkpoint is a file beside the output, ``run.nc.restart`` beside ``run.nc``. It is an uncompressed ZIP archive. It
+contains one member for each array, in little-endian byte order, and ``checkpoint.json`` with the types and shapes of
+the arrays and the versions of all software that computed them. The check sums of the archive reveal damage. The file
+contains only data, nothing that could be executed.
 
-It is written under another name, brought to the disk and then renamed: whatever happens, either the checkpoint before
-or the new one is there. The output is brought to the disk first: a checkpoint never counts a frame that is not there.
+A checkpoint is replaced as a whole (see :mod:`sphframe.output.files`). The output is synced to the disk before: a
+checkpoint never counts a frame that the output does not contain.
 """
 
 import importlib.metadata
@@ -37,7 +38,16 @@ _TYPES = {"f": "<f8", "i": "<i8"}
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """What a checkpoint holds: the ``state`` of the simulation, and of which run, made by which versions."""
+    """The content of a checkpoint.
+
+    Attributes
+    ----------
+    run_id: identifies the run; the output file has the same one.
+    time: simulated time, s.
+    samples, frames: number of each that the output contains at this time.
+    versions: versions of the software that computed the state, by name.
+    state: arrays of the simulation's state, by name.
+    """
 
     run_id: str
     time: float
@@ -80,9 +90,12 @@ def read_checkpoint(path: Path) -> Checkpoint:
 
     Raises
     ------
-    InputError: when it is missing, damaged, or written by another format of checkpoints.
+    InputError: when it is missing or damaged, or its format is another one.
     """
-    damaged = f"{path} is not a readable checkpoint of sphframe: it is foreign or damaged; copy it again, or run again"
+    damaged = (
+        f"{path} is not a readable checkpoint of sphframe: it was written by another program or is damaged; copy it"
+        " again, or run again"
+    )
     try:
         with zipfile.ZipFile(path) as archive:
             if any(member.compress_type != zipfile.ZIP_STORED for member in archive.infolist()):
@@ -121,7 +134,7 @@ def _array(content: bytes, kind: str, shape: list[int]) -> NDArray[Any]:
 
 
 def changed_versions(checkpoint: Checkpoint, case: "Case") -> list[str]:
-    """Return what is not the version that wrote ``checkpoint``, as texts ``numpy 2.1.0, now 2.2.0``."""
+    """Return the versions that differ from those that wrote ``checkpoint``, as texts ``numpy 2.1.0, now 2.2.0``."""
     before, now = checkpoint.versions, _versions(case)
     return [
         f"{name} {before.get(name, 'absent')}, now {now.get(name, 'absent')}"
@@ -131,7 +144,7 @@ def changed_versions(checkpoint: Checkpoint, case: "Case") -> list[str]:
 
 
 def _versions(case: "Case") -> dict[str, str]:
-    """Versions of all that the bits of a result depend on."""
+    """Versions of all software on which the bits of a result depend."""
     return {
         **distributions(case),
         **software(),

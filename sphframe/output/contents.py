@@ -86,7 +86,7 @@ def frame_of(simulation: RunView) -> dict[str, Any]:
 
 
 def _dimensions(simulation: RunView) -> dict[str, int | None]:
-    """Lengths of the dimensions; what the case does not have is left out (a classic file has no length 0)."""
+    """Lengths of the dimensions. One that would be 0 is left out, since the classic format does not allow it."""
     scene, case = simulation.scene, simulation.case
     outlines = [line for wall in scene.walls for line in wall.outline()]
     lengths = {
@@ -134,7 +134,7 @@ def _define(file: netCDF4.Dataset, simulation: RunView, lengths: Mapping[str, in
 
 
 def _variables(simulation: RunView) -> dict[str, Variable]:
-    """The schema with the case's diagnostics added, ``particle_mass`` staying the last of the fixed part."""
+    """The schema and the case's diagnostics; ``particle_mass`` stays the last variable of the fixed part."""
     dimension = simulation.case.dimension
     absent = {"probe_z", "gauge_y"} if dimension == 2 else set()
     diagnostics = {}
@@ -190,7 +190,7 @@ def _fill_start(file: netCDF4.Dataset, simulation: RunView) -> None:
 
 
 def _attributes(simulation: RunView) -> dict[str, Any]:
-    """Global attributes: all that repeats the run, and the scales that make its numbers dimensionless."""
+    """Global attributes: everything needed to repeat the run, and the scales for dimensionless numbers."""
     case, scene = simulation.case, simulation.scene
     components = {}
     for field in COMPONENT_KINDS:

@@ -1,4 +1,4 @@
-"""Output: one file, one writing run. A lock that the operating system drops when its process ends, however it ends."""
+"""Output: a lock by which only one run writes a file; the operating system releases it when the process ends."""
 
 import os
 import sys
@@ -10,8 +10,8 @@ __all__ = ["lock_file"]
 def lock_file(path: Path) -> int | None:
     """Lock ``path`` for the writing run and return the open descriptor that holds the lock; None if it is taken.
 
-    The lock is ``flock`` on the file itself: it leaves nothing behind and cannot go stale. Where the system or the
-    file system has no such lock (Windows, some network file systems), the descriptor is returned without one.
+    The lock is ``flock`` on the file itself, so no lock file can be left behind. Where the system or the file system
+    has no such lock (Windows, some network file systems), the descriptor is returned without one.
     """
     while True:
         descriptor = os.open(path, os.O_RDWR)

@@ -1,4 +1,4 @@
-"""Output: what computed a run, by name and version."""
+"""Output: names and versions of the software that computed a run."""
 
 import importlib.metadata
 import platform
@@ -24,7 +24,7 @@ def distributions(case: "Case") -> dict[str, str]:
 
 
 def software() -> dict[str, str]:
-    """Return the versions of Python and of the packages that numbers pass through."""
+    """Return the versions of Python and of the packages that compute or store the results."""
     packages = {package: importlib.metadata.version(package) for package in ("numpy", "numba", "netCDF4")}
     return {"python": platform.python_version(), **packages}
 

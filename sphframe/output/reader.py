@@ -1,4 +1,4 @@
-"""Output: opens the file of a run, finished, failed or still going."""
+"""Output: opens the file of a run that is complete, has failed or is still running."""
 
 import os
 from pathlib import Path
@@ -18,9 +18,9 @@ __all__ = ["open_dataset"]
 def open_dataset(path: str | os.PathLike[str]) -> "xr.Dataset":
     """Open a file written by :class:`~sphframe.output.NetCDFWriter`.
 
-    Arrays are read when they are used. Of a run that is still going, or was killed, the frames and samples written so
-    far are there. The attribute ``completed`` says "yes" or "no", ``run_status`` "running", "completed" or "failed",
-    and ``run_message`` why a run failed.
+    Arrays are read when they are used. The dataset of a run that is still running, or was killed, contains the frames
+    and samples written so far. The attribute ``completed`` is "yes" or "no", ``run_status`` is "running", "completed"
+    or "failed", and ``run_message`` is the reason why a run failed.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def open_dataset(path: str | os.PathLike[str]) -> "xr.Dataset":
     ------
     InputError: the file is missing, was not written by sphframe, or is truncated.
     """
-    import xarray as xr  # takes longer to load than all of sphframe, which a run that begins need not wait for
+    import xarray as xr  # slower to import than all of sphframe, and a run does not need it to start
 
     path = Path(path)
     if not path.exists():
@@ -49,7 +49,8 @@ def open_dataset(path: str | os.PathLike[str]) -> "xr.Dataset":
         raise InputError(f"{path} cannot be read: check its permissions") from None
     except (OSError, ValueError, KeyError, RuntimeError) as error:
         raise InputError(
-            f"{path} is not a readable NetCDF file ({error}): it is no output of sphframe, or was truncated; run again"
+            f"{path} is not a readable NetCDF file ({error}): it is not an output of sphframe, or it was truncated; run"
+            " again"
         ) from error
     try:
         return _prepared(dataset, path)

@@ -1,8 +1,8 @@
 """Output: the NetCDF file of a run, written so that it can be read at any moment and after a crash at any moment.
 
-The file appears under its name complete with its header and everything that does not change, by an atomic rename. From
-then on numbers are only added: a frame counts once the record number in the header says so, which is written after
-the frame's data, and a sample counts once its ``probe_time`` is no longer NaN, which is written last.
+The header and everything that does not change are written to a draft, which is then renamed: the file appears complete.
+After that, numbers are only added. A frame counts once the record number in the header includes it, and this number is
+written after the frame's data. A sample counts once its ``probe_time`` is not NaN, and this is written last.
 """
 
 import contextlib
@@ -70,7 +70,7 @@ class RunFile:
                 write_start(self._dataset)
                 self._dataset.sync()
                 self._publish(draft, overwrite)
-                checkpoint_path(self.path).unlink(missing_ok=True)  # of the run that was replaced
+                checkpoint_path(self.path).unlink(missing_ok=True)  # it belongs to the run that was replaced
             except BaseException:
                 self._abandon()
                 draft.unlink(missing_ok=True)
@@ -127,7 +127,7 @@ class RunFile:
         self.frames += 1
 
     def mark(self, status: RunStatus, message: str) -> None:
-        """Write how the run stands."""
+        """Write the state of the run."""
         dataset = self._open_dataset()
         with self._reporting_failures():
             width = len(dataset.dimensions["run_message_length"])

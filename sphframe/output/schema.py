@@ -1,6 +1,6 @@
-"""Output: the variables of a run's file, with their dimensions, units and meaning, all in one place.
+"""Output: the variables of a run's file with their dimensions, units and meaning.
 
-Writer, reader, plots and exporters take names and units from here. The file follows the CF conventions 1.11.
+Writer, reader, plots and exporters use these names and units. The file follows the CF conventions 1.11.
 """
 
 from collections.abc import Mapping, Sequence
@@ -15,11 +15,11 @@ __all__ = ["CONVENTIONS", "FORMAT", "VARIABLES", "RunStatus", "Variable", "encod
 
 CONVENTIONS = "CF-1.11"
 FORMAT: Final = "NETCDF3_64BIT_DATA"
-"""CDF-5, the classic format: a fixed header followed by data, which a killed writer cannot make unreadable"""
+"""CDF-5, the classic format: a fixed header followed by data, so the file of a killed run stays readable"""
 
 
 class RunStatus(IntEnum):
-    """How the run that wrote a file stands."""
+    """State of the run that wrote a file."""
 
     RUNNING = 0
     COMPLETED = 1
@@ -35,9 +35,9 @@ class Variable:
     dimensions: names, slowest first. ``time`` counts frames and is the unlimited dimension; ``probe_time`` counts the
         much more frequent samples of probes and sums.
     unit: SI unit; see ``per_width``.
-    long_name: what it is, as it stands beside an axis.
+    long_name: what it is, as the label of an axis.
     type: ``f8``, ``i4``, or ``text`` (fixed-length UTF-8).
-    per_width: in 2-D the quantity is per metre of width, and its unit is divided by m.
+    per_width: whether the quantity is per metre of width in 2-D; its unit is then divided by m.
     attributes: further CF attributes.
     """
 
@@ -77,7 +77,7 @@ VARIABLES: Mapping[str, Variable] = {
     "wall": _text(("wall",), "wall"),
     "body": _text(("body",), "body that carries walls"),
     "status": _text(("status",), "what became of the interpolation to a ghost particle"),
-    # what does not change
+    # constant during a run
     "run_status": Variable(
         (), "1", "how the run stands", "i4", attributes={"flag_meanings": "running completed failed"}
     ),
@@ -124,7 +124,7 @@ VARIABLES: Mapping[str, Variable] = {
     "body_acceleration": Variable(
         ("probe_time", "body", "motion"), "m s-2", "acceleration of the body (angles in rad)"
     ),
-    # last of the fixed part: its last value is never zero, which tells a truncated file
+    # last of the fixed part: its last value is never zero, so a zero there reveals a truncated file
     "particle_mass": Variable(("particle",), "kg", "mass of the particle", per_width=True),
     # frames
     "time": Variable(("time",), "s", "time of the frames"),
@@ -133,6 +133,6 @@ VARIABLES: Mapping[str, Variable] = {
     "pressure": Variable(("time", "particle"), "Pa", "pressure"),
     "particles_outside": Variable(("time",), "1", "fluid particles behind a wall", "i4"),
     "ghost_pressure": Variable(("time", "ghost"), "Pa", "pressure of the ghost particle"),
-    # last of every frame: never zero either
+    # last of every frame: never zero either, for the same reason
     "density": Variable(("time", "particle"), "kg m-3", "density"),
 }

@@ -33,7 +33,7 @@ def check_target(path: Path, overwrite: bool) -> None:
         os.close(descriptor)
     elif checkpoint_path(path).exists() and not overwrite:
         raise OutputError(
-            f"{checkpoint_path(path)} exists, the checkpoint of a run whose output is gone: give --overwrite"
+            f"{checkpoint_path(path)} exists, the checkpoint of a run whose output is missing: give --overwrite"
             " (overwrite=True) to remove it, or another --output"
         )
     folder = path.parent
@@ -46,7 +46,7 @@ def check_target(path: Path, overwrite: bool) -> None:
 
 
 def check_space(path: Path, planned: int, frames: int) -> None:
-    """Raise an error if the disk has not the ``planned`` number of bytes free, which ``frames`` frames need.
+    """Raise an error if fewer than ``planned`` bytes are free on the disk, which ``frames`` frames need.
 
     Raises
     ------

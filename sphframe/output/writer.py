@@ -49,7 +49,7 @@ class NetCDFWriter:
     ) -> None:
         self.path = Path(path)
         self.run_id = ""
-        """what tells this run's files from those of another; empty before the run has started"""
+        """identifies the run in its output and its checkpoints; empty before the run has started"""
         self.overwrite = overwrite
         self.flush_interval = flush_interval
         self._resumed = resumed

@@ -1,4 +1,4 @@
-"""Bad input over the command line: its own message with the value and the remedy, exit code 2, no file touched."""
+"""Bad input over the command line: a message with the value and the remedy, exit code 2, no file changed."""
 
 from pathlib import Path
 

@@ -27,7 +27,7 @@ def call(*arguments: str, **environment: str) -> Result:
     return CliRunner().invoke(app, arguments, env={"COLUMNS": "200", "NO_COLOR": "1", **environment})
 
 
-def test_alone_it_says_what_to_do_next() -> None:
+def test_without_a_command_it_names_the_commands() -> None:
     result = call()
     assert result.exit_code == 0
     assert "sphframe run dam-break" in result.stdout
@@ -85,7 +85,7 @@ def test_doctor() -> None:
     result = call("doctor")
     assert "threading layer" in result.stdout
     assert "numba" in result.stdout
-    assert "all is well" in result.stdout, result.stdout
+    assert "no problem found" in result.stdout, result.stdout
 
 
 def test_values_are_toml_or_text() -> None:
@@ -144,7 +144,7 @@ def test_a_case_file_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     assert (tmp_path / "slope.nc").exists()
 
 
-def test_a_doubtful_case_warns_and_runs(tmp_path: Path) -> None:
+def test_a_case_with_a_warning_runs(tmp_path: Path) -> None:
     output = str(tmp_path / "run.nc")
     result = call(
         "run", "hydrostatic-tank", *SMALL, "--set", "particle_spacing=0.06", "--until", "0.01", "--output", output
@@ -156,7 +156,7 @@ def test_a_doubtful_case_warns_and_runs(tmp_path: Path) -> None:
     assert "warning: particle_spacing = 0.06 m leaves 5 particles over the depth" in result.stderr
 
 
-def test_a_run_gone_wrong_exits_with_three(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failed_run_exits_with_three(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from sphframe.simulation import Simulation
 
     def fail(self: Simulation) -> None:
@@ -184,7 +184,7 @@ def test_a_defect_has_no_traceback_unless_asked_for(tmp_path: Path, monkeypatch:
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_interrupted_it_keeps_what_it_has(tmp_path: Path, number: signal.Signals) -> None:
+def test_an_interrupted_run_keeps_its_output(tmp_path: Path, number: signal.Signals) -> None:
     command = [sys.executable, "-m", "sphframe", "run", "hydrostatic-tank", *SMALL, "--until", "1000"]
     with subprocess.Popen(
         command,
@@ -207,7 +207,7 @@ def test_interrupted_it_keeps_what_it_has(tmp_path: Path, number: signal.Signals
 
 
 class FakeSimulation:
-    """A run that is watched."""
+    """What the progress display uses of a running simulation."""
 
     step, time, time_step = 500, 0.45, 1e-3
     removed_count, densities_outside, behind_walls = 0, 0, 0
@@ -227,12 +227,12 @@ class FakeSimulation:
 
 
 @pytest.mark.parametrize("terminal", [False, True])
-def test_progress_shows_the_rate_of_now_and_what_is_wrong(terminal: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    clock = iter([10.0, 12.0])  # the first step took long: it compiled
+def test_progress_shows_the_present_rate_and_warnings(terminal: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = iter([10.0, 12.0])  # the first step includes the compilation
     monkeypatch.setattr("sphframe.cli.progress.time", SimpleNamespace(monotonic=lambda: next(clock)))
     console = Console(force_terminal=terminal, file=io.StringIO(), record=True, width=200)
     display, simulation = ProgressDisplay(console), FakeSimulation()
-    display.sphframe_run_started(simulation)  # resumed: 450 steps are old
+    display.sphframe_run_started(simulation)  # resumed: 500 steps were made before
     simulation.advance(1)
     display.sphframe_step_completed(simulation)
     simulation.removed_count, simulation.behind_walls, simulation.statuses = 2, 1, (15, 10, 5, 0)

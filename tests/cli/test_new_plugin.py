@@ -27,16 +27,16 @@ def made(tmp_path, install):
     return make
 
 
-def test_it_keeps_its_promises_and_declares_all_that_it_keeps(made):
+def test_it_declares_exactly_the_traits_that_it_has(made):
     _, method = made("gauss-width")
     for check in checks_of(method, promised_only=False):
         if check.dim == 2 and check.name != "solver_agrees":
-            kept = True
+            held = True
             try:
                 check(method)
             except AssertionError:
-                kept = False
-            assert kept == check.promised, check.name
+                held = False
+            assert held == check.promised, check.name
 
 
 def test_it_is_complete(made):
@@ -76,7 +76,7 @@ def test_licences(tmp_path, licence):
         ("shepard", "sphframe-shepard already offers a method called 'shepard'"),
     ],
 )
-def test_names_that_will_not_do(tmp_path, name, message):
+def test_invalid_names(tmp_path, name, message):
     with pytest.raises(InputError, match=message):
         new_plugin(name, folder=tmp_path)
     assert list(tmp_path.iterdir()) == []

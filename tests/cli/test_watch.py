@@ -1,4 +1,4 @@
-"""``sphframe watch``: the page shows how a run stands, and follows it."""
+"""``sphframe watch``: the page shows the state of a run and follows it."""
 
 import http.client
 import importlib.util
@@ -37,7 +37,7 @@ TANK = {"particle_spacing": 0.03, "until": 0.02, "frame_interval": 0.01, "couran
 
 
 class Looker:
-    """Looks at the run as often as a frame is written, while it is still going."""
+    """A hook plugin that looks at the running run at every frame."""
 
     def __init__(self, path: Path) -> None:
         self.path, self.looks = path, list[Look]()
@@ -82,7 +82,7 @@ def get(server: WatchServer, path: str) -> tuple[str, bytes]:
         return answer.headers["Content-Type"], answer.read()
 
 
-def test_a_run_is_seen_while_it_goes(watched: tuple[Path, list[Look]]) -> None:
+def test_a_run_is_shown_while_it_is_running(watched: tuple[Path, list[Look]]) -> None:
     first, second, last = watched[1]
     assert [look.status for look in (first, second, last)] == ["running"] * 3
     assert first.facts["time"].startswith("0 of 0.02 s (0 %), step 0")
@@ -106,7 +106,7 @@ def test_only_what_has_changed_is_drawn_again(run_file: Path) -> None:
     assert (stopped.status, stopped.message, stopped.drawn) == ("stopped", "the particles have left", 2)
 
 
-def test_a_run_that_falls_silent_is_noticed(run_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_run_that_writes_nothing_for_long_is_reported(run_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     mark(run_file, RunStatus.RUNNING)
     now = time.time()
     monkeypatch.setattr("sphframe.analysis.live.time.time", lambda: now + 3600.0)
@@ -119,7 +119,7 @@ def test_warnings_are_shown(run_file: Path) -> None:
     assert LiveRun(run_file).look().facts["warnings"] == "7 particles behind walls"
 
 
-def test_a_file_that_goes_away_keeps_its_last_picture(run_file: Path) -> None:
+def test_the_last_picture_of_a_deleted_file_stays(run_file: Path) -> None:
     run = LiveRun(run_file)
     seen = run.look()
     run_file.write_bytes(run_file.read_bytes()[:3000])

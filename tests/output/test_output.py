@@ -1,4 +1,4 @@
-"""Output: the file of a run holds what the run did, survives whatever ends it, and is never overwritten unasked."""
+"""Output: the file holds the results, stays readable however the run ends, and is replaced only on request."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""Bad input over the command line, case files and the library: a message of its own with the value and the remedy."""
+"""Bad input by command line, case file and library: each has its own message with the value and the remedy."""
 
 import math
 from pathlib import Path
@@ -155,7 +155,7 @@ FILES: list[tuple[str, list[str]]] = [
 
 @pytest.fixture
 def folder(here: Path) -> Path:
-    """Files and folders that are in the way."""
+    """A folder with files and folders that must not be changed."""
     for name in ("kept.nc", "left.nc.restart", "waiting.nc", "waiting.nc.restart", "pictured.png"):
         (here / name).write_text("= not to be touched")
     (here / "folder.nc").mkdir()
@@ -163,21 +163,21 @@ def folder(here: Path) -> Path:
 
 
 def snapshot(folder: Path) -> dict[str, bytes]:
-    """What is in a folder."""
+    """The content of a folder."""
     return {str(path): path.read_bytes() if path.is_file() else b"folder" for path in folder.rglob("*")}
 
 
 MESSAGES: dict[str, tuple[object, ...]] = {}
-"""every message that a row of the tables has got, with the row"""
+"""each message with the row of the tables that caused it"""
 
 
 def own(message: str, *row: object) -> None:
-    """No other row has got this message."""
+    """Check that no other row has caused this message."""
     assert MESSAGES.setdefault(message, row) == row
 
 
 def check_refused(arguments: list[str], fragments: list[str], folder: Path) -> str:
-    """The command line prints all ``fragments``, exits with 2, shows no traceback and touches nothing."""
+    """Check that the command prints all ``fragments``, exits with 2, shows no traceback and changes no file."""
     before = snapshot(folder)
     result = CliRunner().invoke(app, arguments, env={"COLUMNS": "400", "NO_COLOR": "1", "TERM": "dumb"})
     assert result.exit_code == 2, result.output
@@ -232,7 +232,7 @@ values = st.one_of(
 
 @st.composite
 def broken_case_files(draw: st.DrawFn) -> str:
-    """A good case file with characters lost or put in, lines lost, doubled or swapped, and values replaced."""
+    """A valid case file with characters or lines removed, inserted, doubled or swapped, and values replaced."""
     lines = TANK.splitlines()
     for _ in range(draw(st.integers(1, 4))):
         at = draw(st.integers(0, len(lines) - 1))

@@ -1,4 +1,4 @@
-"""What becomes of the files when the world around a run goes wrong."""
+"""The files of a run after a full disk, missing permissions, deleted outputs and truncation."""
 
 import os
 import shutil

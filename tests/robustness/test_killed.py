@@ -1,4 +1,4 @@
-"""A run that is killed at any moment, again and again, ends with the same bits as one that is not."""
+"""A run that is killed repeatedly at random moments ends with the same bits as an uninterrupted run."""
 
 import random
 import subprocess
@@ -59,7 +59,7 @@ def test_killed_twenty_times_it_ends_with_the_same_bits(small: ModuleType, tmp_p
 
 
 def check_readable(output: Path) -> int:
-    """Open what a killed run has left, with plain xarray and with ours; return the number of samples."""
+    """Open the output of a killed run with xarray and with sphframe; return the number of samples."""
     if not output.exists():
         return 0
     with xr.open_dataset(output) as dataset:
@@ -72,7 +72,7 @@ def check_readable(output: Path) -> int:
 
 
 def check_recomputed(steps: Path, interval: float, time_step: float) -> None:
-    """Each resumed run starts at most one interval (and the step that passes it) before where the last one ended."""
+    """Each resumed run starts at most one interval, plus the step that passes it, before the end of the last run."""
     reached, starts = 0.0, 0
     for line in steps.read_text().splitlines():
         word, _, value = line.rpartition(" ")

@@ -128,7 +128,7 @@ def test_checks_of_all_traits_can_be_asked_for():
 def test_a_verified_method_and_a_table(capsys):
     assert print_verification(["shepard"]) == 0
     shown = capsys.readouterr().out
-    assert "all 1 keep their promises" in shown
+    assert "all 1 have their declared traits" in shown
     assert shown.splitlines()[1].split()[1:] == ["yes", "yes", "yes", "-", "-", "yes", "yes", "yes", "yes", "yes"]
 
 
