@@ -11,11 +11,10 @@ from numpy.typing import NDArray
 
 from sphframe.interfaces.rigid_body import Motion
 
-if TYPE_CHECKING:  # the types alone: at run time the interfaces know no other room
-    from sphframe.boundary.boundary import Boundary
+if TYPE_CHECKING:  # the types alone: at run time the interfaces import no other room
     from sphframe.cases import Case, Scene
 
-__all__ = ["Fields", "ResumableRun", "RunView"]
+__all__ = ["Fields", "GhostView", "ResumableRun", "RunView"]
 
 Array = NDArray[np.float64]
 
@@ -27,6 +26,18 @@ class Fields(NamedTuple):
     velocity: Array
     density: Array
     pressure: Array
+
+
+class GhostView(Protocol):
+    """The ghost particles of all walls."""
+
+    @property
+    def position(self) -> Array:
+        """Present positions (g, dim), m."""
+
+    @property
+    def mirror(self) -> Array:
+        """Present mirror points (g, dim), m."""
 
 
 @runtime_checkable
@@ -86,7 +97,7 @@ class RunView(Protocol):
         """Smoothing length, m."""
 
     @property
-    def ghosts(self) -> "Boundary":
+    def ghosts(self) -> GhostView:
         """The ghost particles."""
 
     def fields(self) -> Fields:
