@@ -11,8 +11,8 @@ from rich.text import Text
 from sphframe.cli.reproduce import shown_progress
 from sphframe.cli.run import console_log
 from sphframe.errors import InputError
-from sphframe.reproduction import compare
-from sphframe.reproduction.report import shown
+from sphframe.studies import compare
+from sphframe.studies.report import shown
 
 __all__ = ["compare_command"]
 

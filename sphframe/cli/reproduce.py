@@ -11,8 +11,8 @@ from rich.progress import BarColumn, TextColumn, TimeElapsedColumn, TimeRemainin
 from rich.progress import Progress as Bar
 
 from sphframe.cli.run import console_log
-from sphframe.reproduction import Progress, reproduce
-from sphframe.reproduction.engine import Watch
+from sphframe.studies import Progress, reproduce
+from sphframe.studies.engine import Watch
 
 __all__ = ["reproduce_command", "shown_progress"]
 

@@ -28,7 +28,7 @@ from sphframe.output.schema import RunStatus
 
 browser = importlib.util.module_from_spec(
     spec := importlib.util.spec_from_file_location(  # type: ignore[arg-type]
-        "sphframe_browser", Path(__file__).parents[1] / "reproduction" / "browser.py"
+        "sphframe_browser", Path(__file__).parents[1] / "studies" / "browser.py"
     )
 )
 spec.loader.exec_module(browser)  # type: ignore[union-attr]

@@ -1,4 +1,4 @@
-"""Reproduction: still water in a tank, section 4.1 of the paper, Figs. 3 and 4."""
+"""Studies: still water in a tank, section 4.1 of the paper, Figs. 3 and 4."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -7,11 +7,11 @@ import numpy as np
 import xarray as xr
 
 from sphframe.analysis import pressure_scale, rest_pressure
-from sphframe.reproduction.chapter import Cell, Chapter, Claim, Picture, Table
-from sphframe.reproduction.drawing import colour, new_figure, picture, thinned, tidy
-from sphframe.reproduction.sections.section import OURS, PAPER, Section, Variant, run_task
-from sphframe.reproduction.series import Reference, ended, fallback_share
-from sphframe.reproduction.tasks import Task
+from sphframe.studies.chapter import Cell, Chapter, Claim, Picture, Table
+from sphframe.studies.drawing import colour, new_figure, picture, thinned, tidy
+from sphframe.studies.sections.section import OURS, PAPER, Section, Variant, run_task
+from sphframe.studies.series import Reference, ended, fallback_share
+from sphframe.studies.tasks import Task
 
 __all__ = ["SECTION"]
 

@@ -9,7 +9,7 @@ from typer.testing import CliRunner, Result
 
 from sphframe.cli.app import app
 from sphframe.errors import InputError
-from sphframe.reproduction import compare
+from sphframe.studies import compare
 
 TANK = {"tank_length": 0.3, "until": 0.2, "probe_interval": 0.01}
 DAM = {"until": 0.8, "frame_interval": 0.1}

@@ -8,11 +8,11 @@ from types import ModuleType
 
 import pytest
 
-from sphframe.reproduction import Section, reproduce
-from sphframe.reproduction.chapter import Chapter, Table
-from sphframe.reproduction.report import write_report
-from sphframe.reproduction.series import Reference
-from sphframe.reproduction.tasks import RunTask
+from sphframe.studies import Section, reproduce
+from sphframe.studies.chapter import Chapter, Table
+from sphframe.studies.report import write_report
+from sphframe.studies.series import Reference
+from sphframe.studies.tasks import RunTask
 
 browser = importlib.util.module_from_spec(
     spec := importlib.util.spec_from_file_location("sphframe_browser", Path(__file__).with_name("browser.py"))  # type: ignore[arg-type]

@@ -1,4 +1,4 @@
-"""Reproduction: the solitary wave on the fixed, leaning wall, section 4.3 of the paper, Figs. 10 and 11."""
+"""Studies: the solitary wave on the fixed, leaning wall, section 4.3 of the paper, Figs. 10 and 11."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -8,11 +8,11 @@ import numpy as np
 import xarray as xr
 
 from sphframe.analysis import plot_run
-from sphframe.reproduction.chapter import Cell, Chapter, Claim, Picture, Table
-from sphframe.reproduction.drawing import colour, new_figure, picture, thinned, tidy
-from sphframe.reproduction.sections.section import OURS, PAPER, Section, Variant, run_task
-from sphframe.reproduction.series import Reference, ended, fallback_share, running_mean
-from sphframe.reproduction.tasks import Task
+from sphframe.studies.chapter import Cell, Chapter, Claim, Picture, Table
+from sphframe.studies.drawing import colour, new_figure, picture, thinned, tidy
+from sphframe.studies.sections.section import OURS, PAPER, Section, Variant, run_task
+from sphframe.studies.series import Reference, ended, fallback_share, running_mean
+from sphframe.studies.tasks import Task
 
 __all__ = ["SECTION"]
 

@@ -1,4 +1,4 @@
-"""Reproduction: the paper from its cases to the report."""
+"""Studies: the paper from its cases to the report."""
 
 import dataclasses
 from collections.abc import Mapping, Sequence
@@ -11,11 +11,11 @@ from sphframe.errors import InputError, OutputError
 from sphframe.output import open_dataset
 from sphframe.output.provenance import distributions, software
 from sphframe.registry.nearest import did_you_mean
-from sphframe.reproduction.chapter import Table
-from sphframe.reproduction.engine import Watch, carry_out
-from sphframe.reproduction.report import write_report
-from sphframe.reproduction.sections import SECTIONS, Section
-from sphframe.reproduction.series import Reference
+from sphframe.studies.chapter import Table
+from sphframe.studies.engine import Watch, carry_out
+from sphframe.studies.report import write_report
+from sphframe.studies.sections import SECTIONS, Section
+from sphframe.studies.series import Reference
 
 __all__ = ["reproduce"]
 
@@ -56,7 +56,7 @@ def reproduce(
     quick: coarse and short, in minutes.
     reference: folder of reference series, see :func:`sphframe.analysis.read_reference_series`; what it lacks is left
         out, and the report says so.
-    workers, scheduler, watch: see :func:`sphframe.reproduction.engine.carry_out`.
+    workers, scheduler, watch: see :func:`sphframe.studies.engine.carry_out`.
     sections: all sections there are.
 
     Raises

@@ -1,4 +1,4 @@
-"""Reproduction: how figures look and become files of the same bytes each time."""
+"""Studies: how figures look and become files of the same bytes each time."""
 
 import io
 import itertools
@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sphframe.errors import InputError
-from sphframe.reproduction.chapter import Picture
+from sphframe.studies.chapter import Picture
 
 __all__ = ["colour", "new_figure", "picture", "thinned", "tidy"]
 

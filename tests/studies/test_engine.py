@@ -11,9 +11,9 @@ import pytest
 
 from sphframe.errors import InputError, OutputError
 from sphframe.output.lock import lock_file
-from sphframe.reproduction import engine
-from sphframe.reproduction.engine import Progress, carry_out
-from sphframe.reproduction.tasks import RunTask, Task, Tell
+from sphframe.studies import engine
+from sphframe.studies.engine import Progress, carry_out
+from sphframe.studies.tasks import RunTask, Task, Tell
 
 pytestmark = pytest.mark.filterwarnings("ignore:Sending large graph")
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from sphframe.reproduction import SECTIONS, reproduce
-from sphframe.reproduction.tasks import Task
+from sphframe.studies import SECTIONS, reproduce
+from sphframe.studies.tasks import Task
 
 pytestmark = pytest.mark.slow
 

@@ -11,11 +11,11 @@ from typing import Any
 import xarray as xr
 
 from sphframe.cases.hydrostatic_tank import HydrostaticTank
-from sphframe.reproduction import Section, reproduce
-from sphframe.reproduction.chapter import Chapter, Claim, Table
-from sphframe.reproduction.drawing import new_figure, picture, tidy
-from sphframe.reproduction.series import Reference
-from sphframe.reproduction.tasks import RunTask, Task
+from sphframe.studies import Section, reproduce
+from sphframe.studies.chapter import Chapter, Claim, Table
+from sphframe.studies.drawing import new_figure, picture, tidy
+from sphframe.studies.series import Reference
+from sphframe.studies.tasks import RunTask, Task
 
 HOSTILE = "<script>alert('x')</script> & \"quoted\""
 """a name as it might come from a plugin or a file"""

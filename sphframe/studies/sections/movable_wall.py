@@ -1,4 +1,4 @@
-"""Reproduction: the solitary wave on the movable seawall, section 4.4 of the paper, Figs. 13 to 15."""
+"""Studies: the solitary wave on the movable seawall, section 4.4 of the paper, Figs. 13 to 15."""
 
 import math
 from collections.abc import Mapping
@@ -8,11 +8,11 @@ import numpy as np
 import xarray as xr
 
 from sphframe.analysis import plot_run, pressure_scale
-from sphframe.reproduction.chapter import Cell, Chapter, Claim, Picture, Table
-from sphframe.reproduction.drawing import colour, new_figure, picture, thinned, tidy
-from sphframe.reproduction.sections.section import PAPER, Section, Variant, run_task
-from sphframe.reproduction.series import Reference, ended, fallback_share
-from sphframe.reproduction.tasks import Task
+from sphframe.studies.chapter import Cell, Chapter, Claim, Picture, Table
+from sphframe.studies.drawing import colour, new_figure, picture, thinned, tidy
+from sphframe.studies.sections.section import PAPER, Section, Variant, run_task
+from sphframe.studies.series import Reference, ended, fallback_share
+from sphframe.studies.tasks import Task
 
 __all__ = ["SECTION"]
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from sphframe.reproduction.chapter import Verdict
-from sphframe.reproduction.sections import cost, dam_break
+from sphframe.studies.chapter import Verdict
+from sphframe.studies.sections import cost, dam_break
 
 
 def pressure() -> xr.DataArray:

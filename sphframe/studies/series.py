@@ -1,4 +1,4 @@
-"""Reproduction: what the sections read from series of samples."""
+"""Studies: what the sections read from series of samples."""
 
 from pathlib import Path
 from typing import Any

@@ -1,4 +1,4 @@
-"""Reproduction: writes chapters as one self-contained page, with every figure and table as a file of its own, and as
+"""Studies: writes chapters as one self-contained page, with every figure and table as a file of its own, and as
 Markdown beside these.
 
 All text passes through jinja2's escaping: names that come from cases, plugins or files are shown, never interpreted.
@@ -14,7 +14,7 @@ from pathlib import Path
 
 from sphframe.errors import InputError, OutputError
 from sphframe.output.files import replaced_as_a_whole
-from sphframe.reproduction.chapter import Cell, Chapter, Picture, Table, Verdict
+from sphframe.studies.chapter import Cell, Chapter, Picture, Table, Verdict
 
 __all__ = ["shown", "write_report"]
 
@@ -41,7 +41,7 @@ def write_report(
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     environment = Environment(
-        loader=PackageLoader("sphframe.reproduction", "templates"),
+        loader=PackageLoader("sphframe.studies", "templates"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,

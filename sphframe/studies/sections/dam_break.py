@@ -1,4 +1,4 @@
-"""Reproduction: the dam break, section 4.2 of the paper, Figs. 5 to 8."""
+"""Studies: the dam break, section 4.2 of the paper, Figs. 5 to 8."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -11,11 +11,11 @@ from scipy.spatial import cKDTree
 from sphframe.analysis import particles_at, plot_run, pressure_scale, series_error, summary, time_scale
 from sphframe.analysis.drawing import draw_particles, draw_walls
 from sphframe.errors import InputError
-from sphframe.reproduction.chapter import Cell, Chapter, Claim, Picture, Table
-from sphframe.reproduction.drawing import colour, new_figure, picture, thinned, tidy
-from sphframe.reproduction.sections.section import OURS, PAPER, Section, Variant, run_task
-from sphframe.reproduction.series import Reference, ended, fallback_share, running_mean
-from sphframe.reproduction.tasks import Task
+from sphframe.studies.chapter import Cell, Chapter, Claim, Picture, Table
+from sphframe.studies.drawing import colour, new_figure, picture, thinned, tidy
+from sphframe.studies.sections.section import OURS, PAPER, Section, Variant, run_task
+from sphframe.studies.series import Reference, ended, fallback_share, running_mean
+from sphframe.studies.tasks import Task
 
 __all__ = ["SECTION"]
 

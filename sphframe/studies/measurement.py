@@ -1,4 +1,4 @@
-"""Reproduction: measures what boundary methods cost, interpolation alone and whole step, on the same state."""
+"""Studies: measures what boundary methods cost, interpolation alone and whole step, on the same state."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,8 +10,8 @@ import xarray as xr
 from sphframe.benchmark.flow import warm_up
 from sphframe.benchmark.machine import machine
 from sphframe.benchmark.methods import Side, side_by_side, wet_points
-from sphframe.reproduction.tasks import Task, Tell, made_with, wall_boundary
 from sphframe.simulation import Simulation
+from sphframe.studies.tasks import Task, Tell, made_with, wall_boundary
 
 __all__ = ["CostTask"]
 

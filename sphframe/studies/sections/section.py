@@ -1,4 +1,4 @@
-"""Reproduction: what a section is, and the variants of the boundary that sections compare."""
+"""Studies: what a section is, and the variants of the boundary that sections compare."""
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 import xarray as xr
 
 from sphframe.cases import CaseWarning, load_case
-from sphframe.reproduction.chapter import Chapter
-from sphframe.reproduction.series import Reference
-from sphframe.reproduction.tasks import RunTask, Task, wall_boundary
+from sphframe.studies.chapter import Chapter
+from sphframe.studies.series import Reference
+from sphframe.studies.tasks import RunTask, Task, wall_boundary
 
 __all__ = ["OURS", "PAPER", "Section", "Variant", "run_task"]
 

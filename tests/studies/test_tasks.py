@@ -12,10 +12,10 @@ from sphframe.cases import Custom
 from sphframe.errors import InputError
 from sphframe.geometry import BoxRegion, BoxWall
 from sphframe.output.checkpoint import checkpoint_path
-from sphframe.reproduction import tasks
-from sphframe.reproduction.measurement import CostTask
-from sphframe.reproduction.sections import SECTIONS
-from sphframe.reproduction.tasks import UNFINISHED, RunTask, work
+from sphframe.studies import tasks
+from sphframe.studies.measurement import CostTask
+from sphframe.studies.sections import SECTIONS
+from sphframe.studies.tasks import UNFINISHED, RunTask, work
 
 
 def quiet(part: float) -> None:

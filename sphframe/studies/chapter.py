@@ -1,4 +1,4 @@
-"""Reproduction: what a section has to say: tables, pictures and judgements of the paper's claims."""
+"""Studies: what a section has to say: tables, pictures and judgements of the paper's claims."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""Reproduction: one task is one run, whose result is one file that is there completely or not at all.
+"""Studies: one task is one run, whose result is one file that is there completely or not at all.
 
 The file's name holds a hash of all that the result depends on, so that work that is done is recognised by its name.
 """

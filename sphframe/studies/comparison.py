@@ -1,4 +1,4 @@
-"""Reproduction: one case with several methods at several resolutions, as one dataset."""
+"""Studies: one case with several methods at several resolutions, as one dataset."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -16,12 +16,12 @@ from sphframe.errors import InputError, OutputError
 from sphframe.output import open_dataset
 from sphframe.output.files import replaced_as_a_whole
 from sphframe.output.provenance import distributions, software
-from sphframe.reproduction.chapter import Cell, Chapter, Picture, Table
-from sphframe.reproduction.drawing import colour, new_figure, picture, thinned, tidy
-from sphframe.reproduction.engine import Watch, carry_out
-from sphframe.reproduction.report import write_report
-from sphframe.reproduction.series import fallback_share, running_mean
-from sphframe.reproduction.tasks import RunTask
+from sphframe.studies.chapter import Cell, Chapter, Picture, Table
+from sphframe.studies.drawing import colour, new_figure, picture, thinned, tidy
+from sphframe.studies.engine import Watch, carry_out
+from sphframe.studies.report import write_report
+from sphframe.studies.series import fallback_share, running_mean
+from sphframe.studies.tasks import RunTask
 
 __all__ = ["Comparison", "compare"]
 
@@ -69,7 +69,7 @@ def compare(
     output: folder for ``comparison.nc``, ``report.html``, ``figures/``, ``tables/`` and ``runs/``.
     reference: file of a reference series, see :func:`sphframe.analysis.read_reference_series`.
     probe: the probe to compare with it; by default the first.
-    workers, scheduler, watch: see :func:`sphframe.reproduction.engine.carry_out`.
+    workers, scheduler, watch: see :func:`sphframe.studies.engine.carry_out`.
 
     Returns
     -------

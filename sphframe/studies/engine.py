@@ -1,4 +1,4 @@
-"""Reproduction: carries out tasks on dask.distributed, each once.
+"""Studies: carries out tasks on dask.distributed, each once.
 
 By default a cluster of this machine's cores, one process a worker; or any existing cluster whose workers see the same
 folder. Results are files, not what travels over the network: whatever is killed, what is written stays done.
@@ -19,7 +19,7 @@ from typing import Any
 
 from sphframe.errors import InputError, OutputError, SphframeError
 from sphframe.output.lock import lock_file
-from sphframe.reproduction.tasks import UNFINISHED, Task, lock_of, work
+from sphframe.studies.tasks import UNFINISHED, Task, lock_of, work
 
 __all__ = ["Progress", "Watch", "carry_out"]
 

@@ -12,7 +12,7 @@ from types import ModuleType
 
 import pytest
 
-from sphframe.reproduction import reproduce
+from sphframe.studies import reproduce
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="SIGKILL is POSIX")
 

@@ -1,4 +1,4 @@
-"""Reproduction: what the methods cost: Table 1 and the speed-ups of Figs. 4, 9 and 12 of the paper."""
+"""Studies: what the methods cost: Table 1 and the speed-ups of Figs. 4, 9 and 12 of the paper."""
 
 import math
 import warnings
@@ -10,12 +10,12 @@ import xarray as xr
 
 from sphframe.cases import CaseWarning, load_case
 from sphframe.output.provenance import registered_name
-from sphframe.reproduction.chapter import Cell, Chapter, Claim, Picture, Table
-from sphframe.reproduction.drawing import colour, new_figure, picture, tidy
-from sphframe.reproduction.measurement import CostTask
-from sphframe.reproduction.sections.section import PAPER, Section, Variant
-from sphframe.reproduction.series import Reference
-from sphframe.reproduction.tasks import Task
+from sphframe.studies.chapter import Cell, Chapter, Claim, Picture, Table
+from sphframe.studies.drawing import colour, new_figure, picture, tidy
+from sphframe.studies.measurement import CostTask
+from sphframe.studies.sections.section import PAPER, Section, Variant
+from sphframe.studies.series import Reference
+from sphframe.studies.tasks import Task
 
 __all__ = ["SECTION"]
 
