@@ -31,7 +31,7 @@ def test_run_and_verify_find_a_module_in_the_working_directory(tmp_path: Path) -
         command = [sys.executable, "-P", "-c", start, *arguments]
         return subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
 
-    absent = sphframe("verify", "of_mine:Absent")  # quicker than a whole verification: the module is found
+    absent = sphframe("verify", "of_mine:Absent")  # the module is found; this is faster than a whole verification
     assert absent.returncode == 2
     assert "has no attribute 'Absent'" in absent.stderr
     ran = sphframe(

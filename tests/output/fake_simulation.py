@@ -1,4 +1,4 @@
-"""A stand-in for a simulation: particles that move as told, with every quantity a known function of time.
+"""A stand-in for a simulation: every quantity is a known function of time.
 
 Run as a program, it starts a process for each line ``DELAY FILE`` of its input, which writes that file and is killed
 after DELAY s of processor time.
@@ -49,7 +49,7 @@ class FakeCase(Case):
 
 
 class FakeSimulation:
-    """What a writer asks of a simulation (see sphframe.simulation.Simulation)."""
+    """The part of sphframe.interfaces.RunView that the writer uses."""
 
     def __init__(self, case: Any = None, particles: int = 50) -> None:
         self.case = case or FakeCase()

@@ -113,7 +113,7 @@ def test_killed_at_random_moments(tmp_path: Path) -> None:
             print(generator.uniform(1e-6, 0.3), path, file=process.stdin, flush=True)
             assert process.stdout.readline() == "killed\n"
             frames.append(check_whole(path))
-            NetCDFWriter(path, overwrite=True)  # a dead run holds no lock
+            NetCDFWriter(path, overwrite=True)  # the lock of a killed run is released
         process.stdin.close()
     assert max(frames) > 1, "no run got as far as its second frame: the test shows nothing"
 
@@ -245,5 +245,5 @@ def test_clashing_diagnostic(tmp_path: Path, fake: ModuleType) -> None:
 
 
 def test_last_values_of_the_file_are_never_zero() -> None:
-    """The reader recognises a truncated file by these two."""
+    """The reader recognises a truncated file by a zero as last value."""
     assert list(VARIABLES)[-1] == "density"

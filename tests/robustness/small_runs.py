@@ -1,4 +1,4 @@
-"""Small cases whose runs take a second, and comparison to the bit.
+"""Small cases whose runs take about a second, and a comparison of all bits of two runs.
 
 Run as a program, it starts a process for each line ``STEPS DELAY FOLDER`` of its input. The process runs a case in the
 folder, or continues it, and is killed DELAY s of processor time after STEPS steps. With STEPS = 0 the delay counts from
@@ -80,7 +80,7 @@ def small_case(dimension: int, **parameters: Any) -> Custom:
 
 
 def assert_same_bits(one: xr.Dataset, other: xr.Dataset) -> None:
-    """Every variable of two runs has the same bits, but for those that measure the computer."""
+    """Check that all variables of two runs have the same bits, except the wall-clock time."""
     assert set(one.variables) == set(other.variables)
     for name in set(one.variables) - TIMING:
         a, b = one[name].values, other[name].values

@@ -74,6 +74,32 @@ COMMANDS: list[tuple[str, list[str]]] = [
     ("resume", ["FILE"]),
     ("show hydrostatic-tonk", ["hydrostatic-tonk", "did you mean 'hydrostatic-tank'"]),
     ("list method", ["method", "The kinds"]),
+    ("list kernel", ["did you mean 'kernels'"]),
+    ("ran dam-break", ["No such command 'ran'"]),
+    ("run dam-break --colour blue", ["No such option: --colour"]),
+    ("run dam-break --preset", ["requires an argument"]),
+    ("run dam-break --set =3", ["=3", "KEY=VALUE"]),
+    ("run dam-break --set interpolator.=3", ["interpolator.=3", "KEY=VALUE"]),
+    ("run dam-break --set until=1 --until 1", ["until is given twice"]),
+    ("run dam-break --set particle_spacing=nan", ["must be a finite number"]),
+    ("run dam-break --set particle_spacing=", ["particle_spacing = ''"]),
+    ("run dam-break --set particle_spacing=0.4", ["more than a quarter of the water depth"]),
+    ("run dam-break --set spacing=0.01", ["did you mean 'particle_spacing'"]),
+    ("run dam-break --set interpolator.mu=-1", ["mu"]),
+    ("run dam-break --interpolator gaussian", ["'gaussian' is a name among kernels"]),
+    ("run dam-break --interpolator nowhere:Method", ["nowhere"]),
+    ("run dam-break --threads 100000", ["threads = 100000"]),
+    ("run broken.toml", ["not valid TOML"]),
+    ("run .", ["there is no case '.'"]),
+    ("show missing.toml", ["there is no such file"]),
+    ("show dam-break --preset x", ["has no preset 'x'"]),
+    ("bench --particles many", ["--particles many: give whole numbers"]),
+    ("bench --particles 3000,", ["give whole numbers"]),
+    ("bench --particles 10", ["particles = 10: give at least 100"]),
+    ("bench --threads 1,0", ["threads = 0"]),
+    ("bench --only rest,speed", ["no section 'speed' to measure; the sections are peak, rest, developed, 3d"]),
+    ("bench --json absent/bench.json", ["give a file in a folder that exists"]),
+    ("bench --json .", ["give a file in a folder that exists"]),
 ]
 
 PARAMETERS: list[tuple[str, dict[str, Any], list[str]]] = [
@@ -156,7 +182,7 @@ FILES: list[tuple[str, list[str]]] = [
 @pytest.fixture
 def folder(here: Path) -> Path:
     """A folder with files and folders that must not be changed."""
-    for name in ("kept.nc", "left.nc.restart", "waiting.nc", "waiting.nc.restart", "pictured.png"):
+    for name in ("kept.nc", "left.nc.restart", "waiting.nc", "waiting.nc.restart", "pictured.png", "broken.toml"):
         (here / name).write_text("= not to be touched")
     (here / "folder.nc").mkdir()
     return here

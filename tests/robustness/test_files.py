@@ -93,7 +93,7 @@ def test_an_output_that_is_deleted_or_replaced_stops_the_run(small: ModuleType, 
         resume(path, threads=1)
 
 
-def test_too_little_disk_is_said_before_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_too_little_disk_space_is_refused_before_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     usage = shutil.disk_usage(tmp_path)
     monkeypatch.setattr(shutil, "disk_usage", lambda path: usage._replace(free=100_000))
     with pytest.raises(OutputError, match=r"would need about .* but only .* are free: choose another --output"):

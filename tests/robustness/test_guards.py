@@ -1,4 +1,4 @@
-"""Guards stop a run that has gone wrong before anything of it is written, and say what, when, where and why."""
+"""Guards stop a run that has gone wrong before a wrong state is written; the message says what, when, where and why."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -64,7 +64,7 @@ def test_twice_n_steps_are_n_steps_and_n_resumed(
 
     expected, found = whole.state(), continued.state()
     for state in (expected, found):
-        state["clocks"][2] = 0.0  # of the wall
+        state["clocks"][2] = 0.0  # wall-clock time
     assert {name: array.tobytes() for name, array in found.items()} == {
         name: array.tobytes() for name, array in expected.items()
     }
@@ -162,7 +162,7 @@ def test_other_versions_are_named(small: ModuleType, tmp_path: Path, monkeypatch
         resume(path, threads=1)
 
 
-def test_what_cannot_be_resumed_says_why(small: ModuleType, tmp_path: Path) -> None:
+def test_what_cannot_be_resumed_is_refused_with_a_reason(small: ModuleType, tmp_path: Path) -> None:
     path = tmp_path / "run.nc"
     with pytest.raises(InputError, match="does not exist"):
         resume(path)
@@ -217,7 +217,7 @@ def test_a_running_output_cannot_be_resumed(small: ModuleType, tmp_path: Path) -
 
 
 def damaged_checkpoints(kept: bytes, path: Path) -> dict[str, bytes]:
-    """Files that are no checkpoint, by what is wrong with them."""
+    """Damaged or foreign checkpoints, by what is wrong with them."""
     flipped = bytearray(kept)
     flipped[len(kept) // 2] ^= 0xFF
     with zipfile.ZipFile(path) as archive:
