@@ -12,6 +12,7 @@ from sphframe.boundary.movement import move_ghosts
 from sphframe.geometry import BoxWall, PolygonWall, wall_ghosts
 from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint, Motion, RigidBody, Status
 from sphframe.neighbours import NeighbourLists
+from sphframe.physics import LoopParameters
 
 __all__ = ["Boundary"]
 
@@ -107,15 +108,12 @@ class Boundary:
         self,
         rows: Array,
         lists: NeighbourLists,
-        *,
-        kernel_scale: float,
-        reference_density: float,
-        sound_speed: float,
+        parameters: LoopParameters,
     ) -> None:
         """Interpolate the fluid to the evaluation points and assign the ghosts' velocity, pressure and density."""
         self._filling(
             rows, lists, self.points, self.lifts, self.reflection, self.velocity, self.driving, self.statuses,
-            kernel_scale=kernel_scale, reference_density=reference_density, sound_speed=sound_speed,
+            parameters,
         )  # fmt: skip
 
     def corner_shares(self, motions: Sequence[Motion]) -> tuple[NDArray[np.int64], Array]:

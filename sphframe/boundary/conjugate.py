@@ -28,30 +28,23 @@ Departs from the paper, which gives the ghosts the velocity that the method inte
 """
 
 import math
-from typing import Any
 
 import numba
 
+from sphframe.compiled import squared_distance
+from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, SUPPORT
+
 __all__ = ["make_conjugate"]
-
-# parts bound by specialise()
-DIM = 2
-SUPPORT = 3.0  # R/h
-
-
-def GRADIENT(s: Any) -> Any:  # noqa: N802
-    """Stand for w'(q)/q of the kernel, as a function of q^2."""
-
 
 CANCELLED = 0.1
 """|a| over the sum of |V_j grad W| below which there is no correction; beside one face it is at least dx/(2 R)"""
 
 
 def make_conjugate(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, counts, reflections, wall_velocities, support
+    rows, fluid_count, lists, counts, reflections, wall_velocities, parameters
 ):
     """Correct the velocities of the ghosts, rows ``fluid_count`` .. ``fluid_count + g``; see :func:`fill_ghosts`."""
-    limit = support * support
+    limit = parameters.support * parameters.support
     per_h2 = SUPPORT * SUPPORT / limit
     for g in numba.prange(counts.shape[0]):
         row = fluid_count + g
@@ -60,18 +53,16 @@ def make_conjugate(  # type: ignore[no-untyped-def]
         total = 0.0
         for k in range(counts[g]):
             j = lists[g, k]
-            r2 = 0.0
-            for d in range(DIM):
-                r2 += (rows[j, d] - rows[row, d]) ** 2
+            r2 = squared_distance(rows, j, rows, row, DIM)
             if r2 < limit:
-                weight = -GRADIENT(r2 * per_h2) * rows[j, 2 * DIM + 2]
+                weight = -GRADIENT(r2 * per_h2) * rows[j, COLUMNS.volume]
                 total += weight * math.sqrt(r2)
                 for d in range(DIM):
                     side = rows[j, d] - rows[row, d]
                     for e in range(DIM):
                         side -= reflections[g, d, e] * (rows[j, e] - rows[row, e])
                     side *= 0.5 * weight
-                    power += side * (rows[j, DIM + d] + rows[row, DIM + d] - 2.0 * wall_velocities[g, d])
+                    power += side * (rows[j, COLUMNS.u + d] + rows[row, COLUMNS.u + d] - 2.0 * wall_velocities[g, d])
                     if d == 0:
                         ax += side
                     elif d == 1:
@@ -80,7 +71,7 @@ def make_conjugate(  # type: ignore[no-untyped-def]
                         az += side
         square = ax * ax + ay * ay + az * az
         if square > (CANCELLED * total) ** 2:
-            rows[row, DIM] -= power / square * ax
-            rows[row, DIM + 1] -= power / square * ay
+            rows[row, COLUMNS.u] -= power / square * ax
+            rows[row, COLUMNS.v] -= power / square * ay
             if DIM == 3:
-                rows[row, DIM + 2] -= power / square * az
+                rows[row, COLUMNS.w] -= power / square * az

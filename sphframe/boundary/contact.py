@@ -16,19 +16,19 @@ import math
 
 import numba
 
-from sphframe.compiled import LANES, local_array
+from sphframe.compiled import LANES, local_array, squared_distance
 
 __all__ = ["put_back"]
 
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
 def put_back(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, fluid_counts, ghost_counts, dim, spacing, mirror, wall_velocity
+    rows, fluid_count, lists, fluid_counts, ghost_counts, columns, spacing, mirror, wall_velocity
 ):
     """Put particles behind a wall back on it, in ``rows``; return how many there were.
 
-    A row of ``lists`` serves LANES particles; ``mirror``, ``wall_velocity`` (g, dim): mirror points, m, and
-    velocities, m/s, of the walls at the ghosts.
+    A row of ``lists`` serves LANES particles; ``columns``: :class:`Columns` of ``rows``; ``mirror`` (g, dim): mirror
+    points, m; ``wall_velocity`` (g, dim): velocity of the wall at each ghost, m/s.
     """
     contacts = 0
     for c in numba.prange(fluid_counts.shape[0]):
@@ -43,15 +43,11 @@ def put_back(  # type: ignore[no-untyped-def]
             nearest[a] = -1.0
         for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
             j = lists[c, k]
-            span2 = 0.0
-            for d in range(dim):
-                span2 += (rows[j, d] - mirror[j - fluid_count, d]) ** 2
+            span2 = squared_distance(rows, j, mirror, j - fluid_count, columns.dim)
             if span2 > 1.5 * spacing * spacing:  # in the first layer of a face it is 1: 2 d is the spacing
                 continue
             for a in range(present):
-                distance2 = 0.0
-                for d in range(dim):
-                    distance2 += (rows[j, d] - rows[first + a, d]) ** 2
+                distance2 = squared_distance(rows, j, rows, first + a, columns.dim)
                 if distance2 < closest[a]:
                     closest[a] = distance2
                     nearest[a] = j - fluid_count
@@ -62,7 +58,7 @@ def put_back(  # type: ignore[no-untyped-def]
                 ghost = fluid_count + g
                 span = 0.0
                 depth = 0.0
-                for d in range(dim):
+                for d in range(columns.dim):
                     across = rows[ghost, d] - mirror[g, d]
                     span += across * across
                     depth += (rows[i, d] - 0.5 * (rows[ghost, d] + mirror[g, d])) * across
@@ -70,12 +66,12 @@ def put_back(  # type: ignore[no-untyped-def]
                     span = math.sqrt(span)
                     depth /= span
                     into = 0.0
-                    for d in range(dim):
+                    for d in range(columns.dim):
                         normal = (rows[ghost, d] - mirror[g, d]) / span
-                        into += (rows[i, dim + d] - wall_velocity[g, d]) * normal
-                    for d in range(dim):
+                        into += (rows[i, columns.u + d] - wall_velocity[g, d]) * normal
+                    for d in range(columns.dim):
                         normal = (rows[ghost, d] - mirror[g, d]) / span
                         rows[i, d] -= depth * normal
-                        rows[i, dim + d] -= max(into, 0.0) * normal
+                        rows[i, columns.u + d] -= max(into, 0.0) * normal
                     contacts += 1
     return contacts

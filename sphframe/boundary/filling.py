@@ -3,15 +3,15 @@
 from collections.abc import Mapping
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from sphframe.boundary.conjugate import make_conjugate
-from sphframe.boundary.ghosts import fill_ghosts
+from sphframe.boundary.ghosts import Scratch, fill_ghosts
 from sphframe.compiled import specialise
 from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint
 from sphframe.neighbours import NeighbourLists
+from sphframe.physics import LoopParameters
 
 __all__ = ["Filling"]
 
@@ -51,15 +51,8 @@ class Filling:
             },
         )
         conjugate = corrected and not balanced and evaluation_point is EvaluationPoint.MIRROR
-        self._make_conjugate = specialise(make_conjugate, dict(parts)) if conjugate else None
-        self._allocate(8)
-
-    def _allocate(self, capacity: int) -> None:
-        chunks = 8 * int(numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
-        self._offsets = np.zeros((chunks, capacity, self._dim))
-        self._columns = np.zeros((chunks, 4, capacity))
-        self._members = np.zeros((chunks, capacity), np.uint32)
-        self._lift = np.zeros((chunks, self._dim))
+        self._make_conjugate = specialise(make_conjugate, parts) if conjugate else None
+        self._scratch = Scratch.of(8, self._dim)
 
     def __call__(
         self,
@@ -71,20 +64,16 @@ class Filling:
         wall_velocity: Array,
         driving: Array,
         statuses: NDArray[np.int64],
-        *,
-        kernel_scale: float,
-        reference_density: float,
-        sound_speed: float,
+        parameters: LoopParameters,
     ) -> None:
         """Fill the ghosts in ``rows``, and their ``statuses`` (g,); shapes as in :class:`Boundary`."""
-        if lists.points.shape[1] > self._members.shape[1]:
-            self._allocate(lists.points.shape[1])
+        if lists.points.shape[1] > self._scratch.members.shape[1]:
+            self._scratch = Scratch.of(lists.points.shape[1], self._dim)
         self._fill(
             rows, lists.fluid_count, lists.points, lists.point_counts, points, lifts, reflection,
-            wall_velocity, driving, lists.support, kernel_scale, reference_density, sound_speed,
-            self._offsets, self._columns, self._members, self._lift, statuses,
+            wall_velocity, driving, parameters, self._scratch, statuses,
         )  # fmt: skip
         if self._make_conjugate is not None:
             self._make_conjugate(
-                rows, lists.fluid_count, lists.points, lists.point_counts, reflection, wall_velocity, lists.support
+                rows, lists.fluid_count, lists.points, lists.point_counts, reflection, wall_velocity, parameters
             )

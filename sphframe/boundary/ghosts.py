@@ -29,18 +29,21 @@ Source: X. Huang et al. (2019), doi:10.3390/w11051110, section 2.2 and Eqs. 8, 1
 """
 
 import math
-from typing import Any
+from typing import NamedTuple
 
 import numba
+import numpy as np
+from numpy.typing import NDArray
 
 from sphframe.compiled import local_array
+from sphframe.compiled.stand_ins import COLUMNS, DENSITY, DIM, FALLBACK, SUPPORT, VALUE, WEIGHTS
 from sphframe.interfaces.traits import DRY, OK
 
-__all__ = ["fill_ghosts"]
+__all__ = ["Scratch", "fill_ghosts"]
+
+Array = NDArray[np.float64]
 
 # parts bound by specialise()
-DIM = 2
-SUPPORT = 3.0  # R/h
 BALANCED = True
 SCALED = True
 EXTRAPOLATED = False
@@ -49,54 +52,65 @@ BLOCK = 16
 """of consecutive ghosts, which see the same particles"""
 
 
-def VALUE(q: Any) -> Any:  # noqa: N802
-    """Stand for w(q) of the kernel."""
+class Scratch(NamedTuple):
+    """Memory for the neighbourhoods of ghosts, one per chunk of the loop of :func:`fill_ghosts`.
 
+    Attributes
+    ----------
+    offsets: (chunks, capacity, dim), m.
+    columns: (chunks, 4, capacity): distances, kernel values, volumes and weights.
+    members: (chunks, capacity), row of each neighbour.
+    lift: (chunks, dim), m.
+    """
 
-def WEIGHTS(offsets: Any, distances: Any, kernel_values: Any, volumes: Any, support: Any, lift: Any, out: Any) -> Any:  # noqa: N802
-    """Stand for the method's weights."""
+    offsets: Array
+    columns: Array
+    members: NDArray[np.uint32]
+    lift: Array
 
-
-def FALLBACK(offsets: Any, distances: Any, kernel_values: Any, volumes: Any, support: Any, lift: Any, out: Any) -> Any:  # noqa: N802
-    """Stand for the method's fallback."""
-
-
-def DENSITY(pressure: Any, reference_density: Any, sound_speed: Any) -> Any:  # noqa: N802
-    """Stand for the inverse equation of state."""
+    @classmethod
+    def of(cls, capacity: int, dim: int) -> "Scratch":
+        """Return memory for neighbourhoods of up to ``capacity`` particles."""
+        chunks = 8 * int(numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
+        return cls(
+            np.zeros((chunks, capacity, dim)),
+            np.zeros((chunks, 4, capacity)),
+            np.zeros((chunks, capacity), np.uint32),
+            np.zeros((chunks, dim)),
+        )
 
 
 def fill_ghosts(  # type: ignore[no-untyped-def]
     rows, fluid_count, lists, counts, points, lifts, reflections, wall_velocities, driving_forces,
-    support, kernel_scale, reference_density, sound_speed,
-    offset_scratch, column_scratch, member_scratch, lift_scratch, statuses,
+    parameters, scratch, statuses,
 ):  # fmt: skip
     """Interpolate to ``points`` (g, dim) and assign the ghosts, rows ``fluid_count`` .. ``fluid_count + g``.
 
     ``lifts`` (g, dim): from evaluation point to ghost, m; ``reflections`` (g, dim, dim); ``wall_velocities``
-    (g, dim), m/s; ``driving_forces`` (g, dim): rho0 (f - a_wall), N/m^3; ``kernel_scale``: sigma_d / h^d. The scratch
-    arrays hold one neighbourhood per chunk: (chunks, capacity, dim), (chunks, 4, capacity), (chunks, capacity)
-    integers and (chunks, dim). ``statuses`` (g,) is written.
+    (g, dim), m/s; ``driving_forces`` (g, dim): rho0 (f - a_wall), N/m^3; ``parameters`` are
+    :class:`LoopParameters`, ``scratch`` is a :class:`Scratch`. ``statuses`` (g,) is written.
     """
+    support = parameters.support
     limit = support * support
     per_h = SUPPORT / support
     ghosts = points.shape[0]
-    chunks = offset_scratch.shape[0]
+    chunks = scratch.offsets.shape[0]
     blocks = -(-ghosts // BLOCK)
     for chunk in numba.prange(chunks):
-        offsets = offset_scratch[chunk]
-        distances = column_scratch[chunk, 0]
-        values = column_scratch[chunk, 1]
-        volumes = column_scratch[chunk, 2]
-        weights = column_scratch[chunk, 3]
-        members = member_scratch[chunk]
-        lift = lift_scratch[chunk]
+        offsets = scratch.offsets[chunk]
+        distances = scratch.columns[chunk, 0]
+        values = scratch.columns[chunk, 1]
+        volumes = scratch.columns[chunk, 2]
+        weights = scratch.columns[chunk, 3]
+        members = scratch.members[chunk]
+        lift = scratch.lift[chunk]
         mean_offset = local_array(DIM)
         mean_velocity = local_array(DIM)
         for block in range(chunk, blocks, chunks):  # the wet ghosts are neighbours: dealt out, threads share them
             for g in range(block * BLOCK, min((block + 1) * BLOCK, ghosts)):
                 px = points[g, 0]
                 py = points[g, 1]
-                pz = points[g, DIM - 1]
+                pz = points[g, COLUMNS.z]
                 n = 0
                 for k in range(counts[g]):
                     j = lists[g, k]
@@ -111,12 +125,12 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                     if DIM == 3:
                         offsets[n, 2] = dz
                     distances[n] = r2
-                    volumes[n] = rows[j, 2 * DIM + 2]
+                    volumes[n] = rows[j, COLUMNS.volume]
                     members[n] = j
                     n += 1 if r2 < limit else 0  # stays only if it is near: no branch to be mispredicted
                 for k in range(n):
                     distances[k] = math.sqrt(distances[k])
-                    values[k] = kernel_scale * VALUE(distances[k] * per_h)
+                    values[k] = parameters.kernel_scale * VALUE(distances[k] * per_h)
 
                 status = DRY
                 extrapolated = 0.0
@@ -130,7 +144,7 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                         FALLBACK(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
                     elif EXTRAPOLATED:
                         for k in range(n):
-                            extrapolated += weights[k] * rows[members[k], 2 * DIM + 1]
+                            extrapolated += weights[k] * rows[members[k], COLUMNS.pressure]
                         for d in range(DIM):
                             lift[d] = 0.0
                         WEIGHTS(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
@@ -144,10 +158,10 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                 for k in range(n):
                     j = members[k]
                     total += weights[k]
-                    pressure += weights[k] * rows[j, 2 * DIM + 1]
+                    pressure += weights[k] * rows[j, COLUMNS.pressure]
                     for d in range(DIM):
                         mean_offset[d] += weights[k] * offsets[k, d]
-                        mean_velocity[d] += weights[k] * rows[j, DIM + d]
+                        mean_velocity[d] += weights[k] * rows[j, COLUMNS.u + d]
                 if EXTRAPOLATED and status == OK:
                     pressure = extrapolated
                 elif BALANCED:
@@ -170,11 +184,11 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
 
                 row = fluid_count + g
                 for d in range(DIM):
-                    rows[row, DIM + d] = wall_velocities[g, d]
+                    rows[row, COLUMNS.u + d] = wall_velocities[g, d]
                 for e in range(DIM if n > 0 else 0):
                     relative = mean_velocity[e] - wall_velocities[g, e]
-                    rows[row, DIM + e] += 0.5 * (1.0 - slope) * relative
+                    rows[row, COLUMNS.u + e] += 0.5 * (1.0 - slope) * relative
                     for d in range(DIM):
-                        rows[row, DIM + d] += 0.5 * (1.0 + slope) * reflections[g, d, e] * relative
-                rows[row, 2 * DIM] = DENSITY(pressure, reference_density, sound_speed)
-                rows[row, 2 * DIM + 1] = pressure
+                        rows[row, COLUMNS.u + d] += 0.5 * (1.0 + slope) * reflections[g, d, e] * relative
+                rows[row, COLUMNS.density] = DENSITY(pressure, parameters.reference_density, parameters.sound_speed)
+                rows[row, COLUMNS.pressure] = pressure

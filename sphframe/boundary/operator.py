@@ -14,13 +14,15 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 from scipy.spatial import cKDTree
 
-from sphframe.compiled import compile_part, specialise
+from sphframe.compiled import specialise
+from sphframe.compiled.stand_ins import DIM, FALLBACK, SUPPORT, VALUE, WEIGHTS
 from sphframe.errors import InputError
-from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint, Kernel
+from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint, Kernel
 from sphframe.interfaces.traits import DRY, OK
+from sphframe.kernels import compiled_kernel
 from sphframe.registry import create
 
-__all__ = ["ParticleCloud", "compiled_kernel", "operator", "weights_loop"]
+__all__ = ["ParticleCloud", "operator", "weights_loop"]
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -88,49 +90,23 @@ def operator(
     >>> (phi @ positions).round(12).tolist(), statuses.tolist()
     ([[3.3, 4.1]], [0])
     """
-    points = _points("points", points)
-    positions = _points("positions", positions)
-    m, dim = points.shape
-    if positions.shape[1] != dim:
-        raise InputError(
-            f"points are in {dim} dimensions and positions in {positions.shape[1]}: give both 2 or both 3 columns"
-        )
-    volumes = _filled("volumes", volumes, (len(positions),), "one number per particle, or one number for all")
-    if np.any(volumes <= 0.0):
-        j = int(np.argmax(volumes <= 0.0))
-        raise InputError(f"volumes must be positive, got {volumes[j]!r} for particle {j}: give m/rho, in m^{dim}")
+    points, positions = _points("points", points), _points("positions", positions)
+    volumes = _volumes(volumes, positions, points.shape[1])
+    lifts = _lifts(lift, points, interpolator)
     if not (math.isfinite(smoothing_length) and smoothing_length > 0.0):
         raise InputError(f"smoothing_length must be a positive number of metres, got {smoothing_length!r}")
-    lifts = _filled("lift", 0.0 if lift is None else lift, (m, dim), "one vector per point, or one for all")
-    if lift is not None and interpolator.traits.evaluation_point is not EvaluationPoint.EXTRAPOLATED:
-        raise InputError(
-            f"{type(interpolator).__name__} does not extrapolate and knows no lift: leave it out, and give the ghosts"
-            f" as points if their own neighbourhood is meant"
-        )
     chosen = create("kernels", kernel) if isinstance(kernel, str) else kernel
-
-    support = chosen.support * smoothing_length
+    dim, support = points.shape[1], chosen.support * smoothing_length
     starts, members = _search(points, positions, support)
     entries = np.zeros(len(members))
-    statuses = np.empty(m, dtype=np.int64)
+    statuses = np.empty(len(points), dtype=np.int64)
     weights_loop(interpolator, chosen, dim)(
         positions, volumes, points, lifts, starts, members, support,
         chosen.normalisation(dim) / smoothing_length**dim,
         np.empty((len(members), dim)), np.empty(len(members)), np.empty(len(members)), np.empty(len(members)),
         entries, statuses,
     )  # fmt: skip
-    return csr_array((entries, members, starts), shape=(m, len(positions))), statuses
-
-
-def compiled_kernel(kernel: Kernel, dim: int) -> CompiledKernel:
-    """Return what an interpolation method is given of ``kernel`` in ``dim`` dimensions."""
-    return CompiledKernel(
-        compile_part(kernel.value_function()),
-        compile_part(kernel.gradient_function()),
-        kernel.support,
-        kernel.normalisation(dim),
-        compile_part(kernel.gradient_of_square_function()),
-    )
+    return csr_array((entries, members, starts), shape=(len(points), len(positions))), statuses
 
 
 def weights_loop(interpolator: BoundaryInterpolator, kernel: Kernel, dim: int) -> Any:
@@ -140,7 +116,7 @@ def weights_loop(interpolator: BoundaryInterpolator, kernel: Kernel, dim: int) -
         _fill_rows,
         {
             "DIM": dim,
-            "PER_H": kernel.support,
+            "SUPPORT": kernel.support,
             "VALUE": functions.value,
             "WEIGHTS": interpolator.point_weights(functions, dim),
             "FALLBACK": interpolator.fallback_weights(functions, dim),
@@ -149,28 +125,11 @@ def weights_loop(interpolator: BoundaryInterpolator, kernel: Kernel, dim: int) -
     )
 
 
-# parts bound by specialise()
-DIM = 2
-PER_H = 3.0  # R/h
-
-
-def VALUE(q):  # type: ignore[no-untyped-def]  # noqa: N802
-    """Stand for w(q) of the kernel."""
-
-
-def WEIGHTS(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]  # noqa: N802
-    """Stand for the method's weights."""
-
-
-def FALLBACK(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]  # noqa: N802
-    """Stand for the method's fallback."""
-
-
 def _fill_rows(  # type: ignore[no-untyped-def]
     positions, volumes, points, lifts, starts, members, support, kernel_scale,
     offsets, distances, kernel_values, neighbour_volumes, entries, statuses,
 ):  # fmt: skip
-    per_h = PER_H / support
+    per_h = SUPPORT / support
     for i in range(points.shape[0]):
         first, end = starts[i], starts[i + 1]
         if first == end:
@@ -212,6 +171,27 @@ def _points(name: str, given: ArrayLike) -> Array:
     if array.ndim != 2 or array.shape[1] not in (2, 3):
         raise InputError(f"{name} must have the shape (n, 2) or (n, 3), got {array.shape}: one row per point, in m")
     return np.ascontiguousarray(array)
+
+
+def _volumes(given: ArrayLike, positions: Array, dim: int) -> Array:
+    if positions.shape[1] != dim:
+        raise InputError(
+            f"points are in {dim} dimensions and positions in {positions.shape[1]}: give both 2 or both 3 columns"
+        )
+    volumes = _filled("volumes", given, (len(positions),), "one number per particle, or one number for all")
+    if np.any(volumes <= 0.0):
+        j = int(np.argmax(volumes <= 0.0))
+        raise InputError(f"volumes must be positive, got {volumes[j]!r} for particle {j}: give m/rho, in m^{dim}")
+    return volumes
+
+
+def _lifts(given: ArrayLike | None, points: Array, interpolator: BoundaryInterpolator) -> Array:
+    if given is not None and interpolator.traits.evaluation_point is not EvaluationPoint.EXTRAPOLATED:
+        raise InputError(
+            f"{type(interpolator).__name__} does not extrapolate, so it takes no lift: leave it out, or give the"
+            " positions of the ghosts as points if their own neighbourhood is meant"
+        )
+    return _filled("lift", 0.0 if given is None else given, points.shape, "one vector per point, or one for all")
 
 
 def _filled(name: str, given: ArrayLike, shape: tuple[int, ...], meaning: str) -> Array:

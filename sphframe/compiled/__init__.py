@@ -1,9 +1,19 @@
 """Compiled: what loops compiled by Numba are made with."""
 
+from sphframe.compiled.distance import squared_distance
 from sphframe.compiled.fast_exp import fast_exp
 from sphframe.compiled.fma import fma
 from sphframe.compiled.lanes import LANES
 from sphframe.compiled.local_array import local_array
 from sphframe.compiled.specialise import compile_part, fingerprint, specialise
 
-__all__ = ["LANES", "compile_part", "fast_exp", "fingerprint", "fma", "local_array", "specialise"]
+__all__ = [
+    "LANES",
+    "compile_part",
+    "fast_exp",
+    "fingerprint",
+    "fma",
+    "local_array",
+    "specialise",
+    "squared_distance",
+]

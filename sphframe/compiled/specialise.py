@@ -11,8 +11,8 @@ a new one.
 import hashlib
 import inspect
 import types
-from collections.abc import Callable, Iterator
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, TypeVar, cast
 
 import numba
 import numpy as np
@@ -20,11 +20,15 @@ from numba.core.dispatcher import Dispatcher
 
 __all__ = ["compile_part", "fingerprint", "specialise"]
 
+F = TypeVar("F", bound=Callable[..., Any])
+
 _parts: dict[str, Any] = {}
-_loops: dict[str, Any] = {}
+_loops: dict[str, Callable[..., Any]] = {}
 
 
-def specialise(template: Callable[..., Any], parts: dict[str, Any], *, parallel: bool = True) -> Any:
+def specialise(
+    template: Callable[..., Any], parts: Mapping[str, object], *, parallel: bool = True
+) -> Callable[..., Any]:
     """Compile ``template`` with the names in ``parts`` bound as globals.
 
     Parameters
@@ -46,11 +50,11 @@ def specialise(template: Callable[..., Any], parts: dict[str, Any], *, parallel:
     return _loops[key]
 
 
-def compile_part(function: Callable[..., Any]) -> Any:
+def compile_part(function: F) -> F:
     """Compile one part for use inside loops; a function with the same fingerprint is compiled once per process."""
     if isinstance(function, Dispatcher) or _jit_is_disabled():
         return function
-    return _compiled_once(function, {"error_model": "numpy"})
+    return cast(F, _compiled_once(function, {"error_model": "numpy"}))
 
 
 def _compiled_once(function: Any, options: dict[str, Any]) -> Any:

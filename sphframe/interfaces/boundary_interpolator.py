@@ -4,8 +4,7 @@ import dataclasses
 import inspect
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from importlib import import_module
-from typing import TYPE_CHECKING, Any, final
+from typing import TYPE_CHECKING, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +15,8 @@ from sphframe.representation import html_table
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
+
+    from sphframe.boundary.operator import ParticleCloud
 
 __all__ = ["BoundaryInterpolator", "WeightsFunction"]
 
@@ -76,7 +77,7 @@ class BoundaryInterpolator(ABC):
         return kernel_average
 
     @final
-    def operator(self, points: ArrayLike, cloud: Any) -> "csr_array":
+    def operator(self, points: ArrayLike, cloud: "ParticleCloud") -> "csr_array":
         """Return the sparse matrix of weights Phi (points, particles), so that value(points) = Phi @ f.
 
         Parameters
@@ -92,8 +93,9 @@ class BoundaryInterpolator(ABC):
         ------
         InputError: when a shape, a dimension or a number is not as it must be.
         """
-        boundary = import_module("sphframe.boundary.operator")  # by name: an interface imports no other room
-        matrix, _ = boundary.operator(
+        from sphframe.boundary.operator import operator  # the one import that goes up: see pyproject.toml
+
+        matrix, _ = operator(
             self,
             points,
             cloud.positions,

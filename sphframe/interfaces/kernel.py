@@ -3,7 +3,7 @@
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 __all__ = ["CompiledKernel", "Kernel", "ScalarFunction"]
 
@@ -59,8 +59,8 @@ class CompiledKernel(NamedTuple):
     weights function h = R / support.
     """
 
-    value: Any
-    gradient: Any
+    value: ScalarFunction
+    gradient: ScalarFunction
     support: float
     normalisation: float
-    gradient_of_square: Any
+    gradient_of_square: ScalarFunction

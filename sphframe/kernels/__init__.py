@@ -1,14 +1,26 @@
-"""Kernels: the smoothing kernels, and their evaluation on NumPy arrays."""
+"""Kernels: the smoothing kernels, their compiled functions, and their evaluation on NumPy arrays."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sphframe.interfaces import Kernel
+from sphframe.compiled import compile_part
+from sphframe.interfaces import CompiledKernel, Kernel
 from sphframe.interfaces.kernel import ScalarFunction
 
-__all__ = ["kernel_gradient_factor", "kernel_value"]
+__all__ = ["compiled_kernel", "kernel_gradient_factor", "kernel_value"]
 
 Array = NDArray[np.float64]
+
+
+def compiled_kernel(kernel: Kernel, dim: int) -> CompiledKernel:
+    """Return what an interpolation method is given of ``kernel`` in ``dim`` dimensions."""
+    return CompiledKernel(
+        compile_part(kernel.value_function()),
+        compile_part(kernel.gradient_function()),
+        kernel.support,
+        kernel.normalisation(dim),
+        compile_part(kernel.gradient_of_square_function()),
+    )
 
 
 def kernel_value(kernel: Kernel, distance: ArrayLike, smoothing_length: float, dim: int) -> Array:

@@ -1,8 +1,9 @@
 """Physics: one term of the equations per file."""
 
+from sphframe.physics.parameters import LoopParameters
 from sphframe.physics.pressure import invert_pressure, update_pressure
 from sphframe.physics.rates import fluid_sums
 from sphframe.physics.sampling import sample_points
 from sphframe.physics.wall_force import wall_reaction
 
-__all__ = ["fluid_sums", "invert_pressure", "sample_points", "update_pressure", "wall_reaction"]
+__all__ = ["LoopParameters", "fluid_sums", "invert_pressure", "sample_points", "update_pressure", "wall_reaction"]

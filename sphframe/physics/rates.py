@@ -4,11 +4,10 @@ With CONTINUITY a specialised loop evaluates the density rate, which needs the d
 acceleration and the density gradient at once: half of the cost is the pair's distance and kernel.
 """
 
-from typing import Any
-
 import numba
 
 from sphframe.compiled import LANES, fma, local_array
+from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, SUPPORT
 from sphframe.physics.continuity import diffusive_flux
 from sphframe.physics.density_gradient import renormalised_2d, renormalised_3d
 from sphframe.physics.momentum import pair_stress
@@ -16,27 +15,20 @@ from sphframe.physics.momentum import pair_stress
 __all__ = ["fluid_sums"]
 
 # parts bound by specialise()
-DIM = 2
-SUPPORT = 3.0  # R/h
 CONTINUITY = True
 
 
-def GRADIENT(s: Any) -> Any:  # noqa: N802
-    """Stand for w'(q)/q of the kernel, as a function of q^2."""
-
-
 def fluid_sums(  # type: ignore[no-untyped-def]
-    rows, lists, fluid_counts, ghost_counts, support, gradient_scale, diffusion, viscosity, gravity, gradient, rates
-):  # fmt: skip
+    rows, lists, fluid_counts, ghost_counts, parameters, gradient, rates
+):
     """Write the velocity to ``rates`` (n, 2 dim + 1); with CONTINUITY the density rate, by the ``gradient`` (n, dim)
     that is there, to its last column; without, the acceleration to those between, and <grad rho> to ``gradient``.
 
-    ``gradient_scale`` is sigma_d / h^(d+2), ``diffusion`` delta h c0 in m^2/s, ``viscosity`` alpha h c0 rho0 in Pa s,
-    ``gravity`` acts downwards along the last axis, m/s^2. A row of ``lists`` serves LANES consecutive particles, which
+    ``parameters`` are :class:`LoopParameters`. A row of ``lists`` serves LANES consecutive particles, which
     stand side by side in vector registers: each neighbour is read once and meets all of them at once. The innermost
     loops run over these lanes, and their local arrays become registers; a particle's sums keep the order of its list.
     """
-    limit = support * support
+    limit = parameters.support * parameters.support
     per_h2 = SUPPORT * SUPPORT / limit
     n = rates.shape[0]
     for c in numba.prange(fluid_counts.shape[0]):
@@ -74,15 +66,15 @@ def fluid_sums(  # type: ignore[no-untyped-def]
             i = first + min(a, present - 1)  # lanes that are left over do the last particle's work again
             x[a] = rows[i, 0]
             y[a] = rows[i, 1]
-            z[a] = rows[i, DIM - 1]
-            u[a] = rows[i, DIM]
-            v[a] = rows[i, DIM + 1]
-            w[a] = rows[i, 2 * DIM - 1]
-            density[a] = rows[i, 2 * DIM]
-            pressure[a] = rows[i, 2 * DIM + 1]
+            z[a] = rows[i, COLUMNS.z]
+            u[a] = rows[i, COLUMNS.u]
+            v[a] = rows[i, COLUMNS.v]
+            w[a] = rows[i, COLUMNS.w]
+            density[a] = rows[i, COLUMNS.density]
+            pressure[a] = rows[i, COLUMNS.pressure]
             gx[a] = gradient[i, 0]
             gy[a] = gradient[i, 1]
-            gz[a] = gradient[i, DIM - 1]
+            gz[a] = gradient[i, COLUMNS.z]
             compression[a] = diffused[a] = 0.0
             fx[a] = fy[a] = fz[a] = 0.0
             bx[a] = by[a] = bz[a] = 0.0
@@ -92,17 +84,17 @@ def fluid_sums(  # type: ignore[no-untyped-def]
                 j = lists[c, k]
                 xj = rows[j, 0]
                 yj = rows[j, 1]
-                zj = rows[j, DIM - 1]
-                uj = rows[j, DIM]
-                vj = rows[j, DIM + 1]
-                wj = rows[j, 2 * DIM - 1]
-                density_j = rows[j, 2 * DIM]
-                pressure_j = rows[j, 2 * DIM + 1]
-                scale = -gradient_scale * rows[j, 2 * DIM + 2]
+                zj = rows[j, COLUMNS.z]
+                uj = rows[j, COLUMNS.u]
+                vj = rows[j, COLUMNS.v]
+                wj = rows[j, COLUMNS.w]
+                density_j = rows[j, COLUMNS.density]
+                pressure_j = rows[j, COLUMNS.pressure]
+                scale = -parameters.gradient_scale * rows[j, COLUMNS.volume]
                 m = j if j < n else 0  # ghosts have no gradient, and what is diffused with them is not read
                 gxj = gradient[m, 0]
                 gyj = gradient[m, 1]
-                gzj = gradient[m, DIM - 1]
+                gzj = gradient[m, COLUMNS.z]
                 for a in range(LANES):
                     dx = xj - x[a]
                     dy = yj - y[a]
@@ -122,7 +114,7 @@ def fluid_sums(  # type: ignore[no-untyped-def]
                         compression[a] = fma(weight, approach, compression[a])
                         diffused[a] = fma(weight, diffusive_flux(density_j - density[a], sloped), diffused[a])
                     else:
-                        stress = weight * pair_stress(pressure[a] + pressure_j, viscosity, approach, r2)
+                        stress = weight * pair_stress(pressure[a] + pressure_j, parameters.viscosity, approach, r2)
                         fx[a] = fma(stress, dx, fx[a])
                         fy[a] = fma(stress, dy, fy[a])
                         if DIM == 3:
@@ -158,10 +150,10 @@ def fluid_sums(  # type: ignore[no-untyped-def]
             if DIM == 3:
                 rates[i, 2] = w[a]
             if CONTINUITY:
-                rates[i, 2 * DIM] = diffusion * diffused_by_fluid[a] - density[a] * compression[a]
+                rates[i, COLUMNS.density] = parameters.diffusion * diffused_by_fluid[a] - density[a] * compression[a]
             else:
-                rates[i, DIM] = fx[a] / density[a]
-                rates[i, DIM + 1] = fy[a] / density[a]
+                rates[i, COLUMNS.u] = fx[a] / density[a]
+                rates[i, COLUMNS.v] = fy[a] / density[a]
                 if DIM == 3:
-                    rates[i, DIM + 2] = fz[a] / density[a]
-                rates[i, 2 * DIM - 1] -= gravity
+                    rates[i, COLUMNS.w] = fz[a] / density[a]
+                rates[i, COLUMNS.w] -= parameters.gravity

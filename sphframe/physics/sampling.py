@@ -10,36 +10,29 @@ wall, where half of the support is empty; it is the same for every interpolation
 """
 
 import math
-from typing import Any
 
 import numba
 
+from sphframe.compiled import squared_distance
+from sphframe.compiled.stand_ins import COLUMNS, DIM, SUPPORT, VALUE
+
 __all__ = ["sample_points"]
 
-# parts bound by specialise()
-DIM = 2
-SUPPORT = 3.0  # R/h
 
-
-def VALUE(q: Any) -> Any:  # noqa: N802
-    """Stand for w(q) of the kernel."""
-
-
-def sample_points(points, rows, lists, counts, support, kernel_scale, weight, pressures, fillings):  # type: ignore[no-untyped-def]
-    """Write the pressure (Pa, 0 where dry) and the filling of ``points`` (k, dim); ``weight`` is rho0 g, N/m^3."""
-    limit = support * support
-    per_h = SUPPORT / support
+def sample_points(points, rows, lists, counts, parameters, pressures, fillings):  # type: ignore[no-untyped-def]
+    """Write the pressure (Pa, 0 where dry) and the filling of ``points`` (k, dim)."""
+    limit = parameters.support * parameters.support
+    per_h = SUPPORT / parameters.support
+    weight = parameters.reference_density * parameters.gravity
     for i in numba.prange(points.shape[0]):
         filling = 0.0
         pressure = 0.0
         for k in range(counts[i]):
             j = lists[i, k]
-            r2 = 0.0
-            for d in range(DIM):
-                r2 += (rows[j, d] - points[i, d]) ** 2
+            r2 = squared_distance(rows, j, points, i, DIM)
             if r2 < limit:
-                part = kernel_scale * VALUE(math.sqrt(r2) * per_h) * rows[j, 2 * DIM + 2]
+                part = parameters.kernel_scale * VALUE(math.sqrt(r2) * per_h) * rows[j, COLUMNS.volume]
                 filling += part
-                pressure += part * (rows[j, 2 * DIM + 1] - weight * (points[i, DIM - 1] - rows[j, DIM - 1]))
+                pressure += part * (rows[j, COLUMNS.pressure] - weight * (points[i, COLUMNS.z] - rows[j, COLUMNS.z]))
         fillings[i] = filling
         pressures[i] = pressure / filling if filling > 0.0 else 0.0

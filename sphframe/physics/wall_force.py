@@ -11,22 +11,13 @@ fixed number of chunks, and the chunks in their order, so the result has the sam
 Departs from the paper: its Eq. 29 takes a pressure difference, which is zero on a hydrostatic wall.
 """
 
-from typing import Any
-
 import numba
 
 from sphframe.compiled import LANES
+from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, SUPPORT
 from sphframe.physics.momentum import pair_stress
 
 __all__ = ["wall_reaction"]
-
-# parts bound by specialise()
-DIM = 2
-SUPPORT = 3.0  # R/h
-
-
-def GRADIENT(s: Any) -> Any:  # noqa: N802
-    """Stand for w'(q)/q of the kernel, as a function of q^2."""
 
 
 @numba.njit(inline="always")
@@ -41,15 +32,15 @@ def add_load(load, row, centre, fx, fy, fz):  # type: ignore[no-untyped-def]
 
 
 def wall_reaction(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, fluid_counts, ghost_counts, ghost_walls, other_walls, other_normals, centres, support,
-    gradient_scale, viscosity, partial, loads,
+    rows, fluid_count, lists, fluid_counts, ghost_counts, ghost_walls, other_walls, other_normals, centres, parameters,
+    partial, loads,
 ):  # fmt: skip
     """Write force and moment (walls, 3) to ``loads``: (N, N, N m) per metre in 2-D, (N, N, N) in 3-D.
 
     ``other_walls`` (g,) and ``other_normals`` (g, dim): the walls that share corner ghosts, -1 for all other ghosts;
     ``centres`` (walls, dim) is what moments refer to; ``partial`` (chunks, walls, 3) is scratch.
     """
-    limit = support * support
+    limit = parameters.support * parameters.support
     per_h2 = SUPPORT * SUPPORT / limit
     chunks = partial.shape[0]
     for chunk in numba.prange(chunks):
@@ -62,16 +53,18 @@ def wall_reaction(  # type: ignore[no-untyped-def]
                 dy = rows[j, 1] - rows[i, 1]
                 dz = 0.0
                 r2 = dx * dx + dy * dy
-                approach = (rows[j, DIM] - rows[i, DIM]) * dx + (rows[j, DIM + 1] - rows[i, DIM + 1]) * dy
+                du = rows[j, COLUMNS.u] - rows[i, COLUMNS.u]
+                dv = rows[j, COLUMNS.v] - rows[i, COLUMNS.v]
+                approach = du * dx + dv * dy
                 if DIM == 3:
                     dz = rows[j, 2] - rows[i, 2]
                     r2 += dz * dz
-                    approach += (rows[j, DIM + 2] - rows[i, DIM + 2]) * dz
+                    approach += (rows[j, COLUMNS.w] - rows[i, COLUMNS.w]) * dz
                 if r2 < limit:
-                    weight = gradient_scale * GRADIENT(r2 * per_h2)
-                    weight *= rows[i, 2 * DIM + 2] * rows[j, 2 * DIM + 2]
-                    pressures = rows[i, 2 * DIM + 1] + rows[j, 2 * DIM + 1]
-                    stress = weight * pair_stress(pressures, viscosity, approach, r2)
+                    weight = parameters.gradient_scale * GRADIENT(r2 * per_h2)
+                    weight *= rows[i, COLUMNS.volume] * rows[j, COLUMNS.volume]
+                    pressures = rows[i, COLUMNS.pressure] + rows[j, COLUMNS.pressure]
+                    stress = weight * pair_stress(pressures, parameters.viscosity, approach, r2)
                     fx = stress * dx
                     fy = stress * dy
                     fz = stress * dz if DIM == 3 else 0.0

@@ -3,10 +3,11 @@
 from dataclasses import dataclass
 from typing import Any
 
-from sphframe.boundary.operator import compiled_kernel
 from sphframe.cases import Case
 from sphframe.compiled import compile_part
 from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EquationOfState, Integrator, Kernel
+from sphframe.kernels import compiled_kernel
+from sphframe.particles import Columns
 from sphframe.registry import COMPONENT_KINDS
 
 __all__ = ["Components", "loop_parts"]
@@ -48,6 +49,7 @@ def loop_parts(kernel: CompiledKernel, equation_of_state: EquationOfState, dim: 
     """Return the parts of the compiled loops that depend on the kernel, the equation of state and the dimension."""
     return {
         "DIM": dim,
+        "COLUMNS": Columns.of(dim),
         "SUPPORT": kernel.support,
         "VALUE": kernel.value,
         "GRADIENT": kernel.gradient_of_square,

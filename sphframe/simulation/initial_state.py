@@ -10,12 +10,12 @@ from sphframe.errors import InputError
 from sphframe.geometry import lattice, lattice_cell
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
-from sphframe.physics import invert_pressure
+from sphframe.physics import LoopParameters, invert_pressure
 from sphframe.simulation.components import Components
 from sphframe.simulation.rest_state import rest_pressure
-from sphframe.simulation.system import FluidSystem, Parameters
+from sphframe.simulation.system import FluidSystem
 
-__all__ = ["initial_system"]
+__all__ = ["initial_system", "loop_parameters"]
 
 Array = NDArray[np.float64]
 
@@ -23,7 +23,21 @@ SKIN = 0.1
 """skin of the neighbour lists over the kernel support"""
 
 
-def initial_system(case: Case, scene: Scene, components: Components, parameters: Parameters) -> FluidSystem:
+def loop_parameters(case: Case, scene: Scene, components: Components) -> LoopParameters:
+    """Return the parameters of the loops for ``case``, whose ``scene`` gives the depth of water."""
+    return LoopParameters.of(
+        components.compiled_kernel,
+        case.dimension,
+        smoothing_length=case.smoothing_length_ratio * case.particle_spacing,
+        reference_density=case.reference_density,
+        sound_speed=case.reference_sound_speed(scene.depth),
+        gravity=case.gravity,
+        density_diffusion=case.density_diffusion,
+        artificial_viscosity=case.artificial_viscosity,
+    )
+
+
+def initial_system(case: Case, scene: Scene, components: Components, parameters: LoopParameters) -> FluidSystem:
     """Return the system of ``scene`` at time 0, with its neighbour lists built and all rates computed.
 
     Raises
@@ -87,15 +101,15 @@ def _initial_rows(
     ghosts: Array,
     spacing: float,
     components: Components,
-    parameters: Parameters,
+    parameters: LoopParameters,
 ) -> Array:
     """Return the packed rows of fluid particles with their densities from ``pressure``, followed by the ghosts."""
-    columns, n = Columns(parameters.dim), len(position)
-    rho0, ghost_volume = parameters.reference_density, spacing**parameters.dim
-    rows = columns.empty(n + len(ghosts))
+    columns, n = Columns.of(ghosts.shape[1]), len(position)
+    rho0, ghost_volume = parameters.reference_density, spacing**columns.dim
+    rows = columns.zeros(n + len(ghosts))
     rows[:n, columns.position] = position
     rows[:n, columns.pressure] = pressure
-    specialise(invert_pressure, components.parts, parallel=False)(rows, n, rho0, parameters.sound_speed)
+    specialise(invert_pressure, components.parts, parallel=False)(rows, n, parameters)
     rows[:n, columns.volume] = volumes
     rows[:n, columns.mass] = rows[:n, columns.density] * volumes
     rows[n:, columns.density] = rho0

@@ -110,13 +110,9 @@ class Observation:
     def sample(self, points: Array) -> tuple[Array, Array]:
         """Return pressure (Pa, 0 where dry) and filling (1 inside the fluid) at ``points`` (k, dim)."""
         self.system.refresh_pressure()
-        p = self.parameters
         lists, counts = self.system.lists.around(points, self.system.rows)
         pressures, fillings = np.zeros(len(points)), np.zeros(len(points))
-        self._sample(
-            points, self.system.rows, lists, counts, p.support, p.kernel_scale, p.reference_density * p.gravity,
-            pressures, fillings,
-        )  # fmt: skip
+        self._sample(points, self.system.rows, lists, counts, self.parameters, pressures, fillings)
         return pressures, fillings
 
     def probe_pressures(self) -> Array:

@@ -15,12 +15,11 @@ from sphframe.errors import InputError, SimulationError
 from sphframe.neighbours import LargestMotion
 from sphframe.simulation.components import Components
 from sphframe.simulation.guards import check_state, check_time_step, check_traits
-from sphframe.simulation.initial_state import initial_system
+from sphframe.simulation.initial_state import initial_system, loop_parameters
 from sphframe.simulation.interruption import Interruption, deferred_interruption
 from sphframe.simulation.observation import Observation
 from sphframe.simulation.plugin_errors import naming_component, naming_hook
 from sphframe.simulation.saved_state import check_saved_state
-from sphframe.simulation.system import Parameters
 
 __all__ = ["Simulation"]
 
@@ -55,7 +54,7 @@ class Simulation(Observation):
         scene = case.scene()
         with self._adding_time_and_step(), naming_component(case, running=False):
             components = Components.of_case(case)
-            system = initial_system(case, scene, components, Parameters.of_case(case, scene, components))
+            system = initial_system(case, scene, components, loop_parameters(case, scene, components))
         super().__init__(case, scene, components, system)
         self._lower, self._upper = (np.array(corner, dtype=np.float64) for corner in scene.domain)
         self.initial_energy = sum(self.energies().values())

@@ -11,14 +11,12 @@ from numpy.typing import NDArray
 
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.contact import put_back
-from sphframe.cases import Case, Scene
 from sphframe.compiled import specialise
-from sphframe.interfaces import CompiledKernel, System
+from sphframe.interfaces import System
 from sphframe.neighbours import LargestMotion, NeighbourLists, put_in_order
 from sphframe.particles import Columns
-from sphframe.physics import fluid_sums, update_pressure, wall_reaction
+from sphframe.physics import LoopParameters, fluid_sums, update_pressure, wall_reaction
 from sphframe.simulation.body_states import BodyStates
-from sphframe.simulation.components import Components
 from sphframe.simulation.updates import (
     accumulate_rates,
     advance_density,
@@ -28,50 +26,9 @@ from sphframe.simulation.updates import (
     copy_state,
 )
 
-__all__ = ["FluidSystem", "Parameters"]
+__all__ = ["FluidSystem"]
 
 Array = NDArray[np.float64]
-
-
-class Parameters:
-    """The numbers that the loops need, in SI units."""
-
-    def __init__(
-        self,
-        *,
-        dim: int,
-        kernel: CompiledKernel,
-        smoothing_length: float,
-        reference_density: float,
-        sound_speed: float,
-        gravity: float,
-        density_diffusion: float,
-        artificial_viscosity: float,
-    ) -> None:
-        self.dim = dim
-        self.smoothing_length = smoothing_length
-        self.support = kernel.support * smoothing_length
-        self.kernel_scale = kernel.normalisation / smoothing_length**dim
-        self.gradient_scale = kernel.normalisation / smoothing_length ** (dim + 2)
-        self.reference_density = reference_density
-        self.sound_speed = sound_speed
-        self.gravity = gravity
-        self.diffusion = density_diffusion * smoothing_length * sound_speed
-        self.viscosity = artificial_viscosity * smoothing_length * sound_speed * reference_density
-
-    @classmethod
-    def of_case(cls, case: Case, scene: Scene, components: Components) -> "Parameters":
-        """Return the parameters of ``case``, whose ``scene`` gives the depth of water."""
-        return cls(
-            dim=case.dimension,
-            kernel=components.compiled_kernel,
-            smoothing_length=case.smoothing_length_ratio * case.particle_spacing,
-            reference_density=case.reference_density,
-            sound_speed=case.reference_sound_speed(scene.depth),
-            gravity=case.gravity,
-            density_diffusion=case.density_diffusion,
-            artificial_viscosity=case.artificial_viscosity,
-        )
 
 
 class FluidSystem(System):
@@ -87,27 +44,32 @@ class FluidSystem(System):
     """
 
     def __init__(
-        self, rows: Array, boundary: Boundary, lists: NeighbourLists, parts: Mapping[str, Any], parameters: Parameters
+        self,
+        rows: Array,
+        boundary: Boundary,
+        lists: NeighbourLists,
+        parts: Mapping[str, Any],
+        parameters: LoopParameters,
     ) -> None:
+        dim = boundary.dim
         self.boundary = boundary
         self.parameters = parameters
-        self.columns = Columns(parameters.dim)
+        self.columns = Columns.of(dim)
         self.bodies = BodyStates(boundary.bodies)
         walls = len(boundary.wall_body)
         self.loads = np.zeros((walls, 3))
         self._partial_loads = np.zeros((64, walls, 3))
-        self._driving_force = np.zeros(parameters.dim)
+        self._driving_force = np.zeros(dim)
         self._driving_force[-1] = -parameters.reference_density * parameters.gravity
-        own = dict(parts)
-        self._pressure = specialise(update_pressure, own)
-        self._density_rates = specialise(fluid_sums, {**own, "CONTINUITY": True})
-        self._accelerations = specialise(fluid_sums, {**own, "CONTINUITY": False})
-        self._wall_reaction = specialise(wall_reaction, own)
+        self._pressure = specialise(update_pressure, parts)
+        self._density_rates = specialise(fluid_sums, {**parts, "CONTINUITY": True})
+        self._accelerations = specialise(fluid_sums, {**parts, "CONTINUITY": False})
+        self._wall_reaction = specialise(wall_reaction, parts)
         count = lists.fluid_count
         self.rows, self.lists = rows, lists
         self.ids = np.arange(count)
-        self.rates, self._start, self._total = (np.zeros((count, 2 * parameters.dim + 1)) for _ in range(3))
-        self.gradient = np.zeros((count, parameters.dim))
+        self.rates, self._start, self._total = (np.zeros((count, 2 * dim + 1)) for _ in range(3))
+        self.gradient = np.zeros((count, dim))
         self._spare = np.zeros((count, self.columns.width))
         self._pressure_is_current = False
 
@@ -173,8 +135,7 @@ class FluidSystem(System):
 
     def update_pressure(self) -> None:
         """Compute pressure and volume of the fluid from its density."""
-        p = self.parameters
-        self._pressure(self.rows, self.fluid_count, p.reference_density, p.sound_speed)
+        self._pressure(self.rows, self.fluid_count, self.parameters)
         self._pressure_is_current = True
 
     def refresh_pressure(self) -> None:
@@ -184,32 +145,22 @@ class FluidSystem(System):
 
     def fill_ghosts(self) -> None:
         """Mirror, interpolate, assign."""
-        p = self.parameters
-        self.boundary.fill(
-            self.rows,
-            self.lists,
-            kernel_scale=p.kernel_scale,
-            reference_density=p.reference_density,
-            sound_speed=p.sound_speed,
-        )
+        self.boundary.fill(self.rows, self.lists, self.parameters)
 
     def _sum(self, sums: Any) -> None:
-        p, lists = self.parameters, self.lists
-        sums(
-            self.rows, lists.fluid, lists.fluid_counts, lists.ghost_counts, p.support, p.gradient_scale,
-            p.diffusion, p.viscosity, p.gravity, self.gradient, self.rates,
-        )  # fmt: skip
+        lists = self.lists
+        sums(self.rows, lists.fluid, lists.fluid_counts, lists.ghost_counts, self.parameters, self.gradient, self.rates)
 
     def update_loads(self) -> None:
         """Compute force and moment of the fluid on each wall."""
-        p, lists, boundary, motions = self.parameters, self.lists, self.boundary, self.bodies.motions
-        centres = np.zeros((len(boundary.wall_body), p.dim))
+        lists, boundary, motions = self.lists, self.boundary, self.bodies.motions
+        centres = np.zeros((len(boundary.wall_body), boundary.dim))
         for wall, body in enumerate(boundary.wall_body):
             if body >= 0:
-                centres[wall] = boundary.centres[body] + motions[body].position[: p.dim]
+                centres[wall] = boundary.centres[body] + motions[body].position[: boundary.dim]
         self._wall_reaction(
             self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, boundary.wall,
-            *boundary.corner_shares(motions), centres, p.support, p.gradient_scale, p.viscosity,
+            *boundary.corner_shares(motions), centres, self.parameters,
             self._partial_loads, self.loads,
         )  # fmt: skip
 
@@ -231,7 +182,7 @@ class FluidSystem(System):
         return int(
             put_back(
                 self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts,
-                self.parameters.dim, spacing, boundary.mirror, boundary.velocity,
+                self.columns, spacing, boundary.mirror, boundary.velocity,
             )
         )  # fmt: skip
 
@@ -262,17 +213,17 @@ class FluidSystem(System):
 
     def drift(self, interval: float) -> None:
         """x = x + interval * u."""
-        advance_position(self.rows, self.fluid_count, self.parameters.dim, interval)
+        advance_position(self.rows, self.fluid_count, self.columns.dim, interval)
         self.bodies.drift(interval)
 
     def kick(self, interval: float) -> None:
         """u = u + interval * acceleration."""
-        advance_velocity(self.rows, self.rates, self.parameters.dim, interval)
+        advance_velocity(self.rows, self.rates, self.columns.dim, interval)
         self.bodies.kick(interval)
 
     def update_density(self, interval: float) -> None:
         """rho = rho + interval * density rate."""
-        advance_density(self.rows, self.rates, self.parameters.dim, interval)
+        advance_density(self.rows, self.rates, self.columns.dim, interval)
         self._pressure_is_current = False
 
     # what restarts a run

@@ -15,13 +15,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar
 
-from sphframe.boundary.operator import compiled_kernel
 from sphframe.cases import Case, CaseWarning
 from sphframe.compiled import fingerprint
 from sphframe.errors import InputError, OutputError, SimulationError
 from sphframe.geometry import lattice
 from sphframe.hooks import hookimpl
 from sphframe.interfaces import RunView
+from sphframe.kernels import compiled_kernel
 from sphframe.output import open_dataset
 from sphframe.output.checkpoint import checkpoint_path
 from sphframe.output.lock import lock_file

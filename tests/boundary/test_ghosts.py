@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 from sphframe.boundary.boundary import Boundary
-from sphframe.boundary.operator import compiled_kernel
 from sphframe.equations_of_state.linear import Linear
 from sphframe.geometry import BoxRegion, BoxWall, lattice
 from sphframe.interfaces import Motion, RigidBody, Status
+from sphframe.kernels import compiled_kernel
 from sphframe.kernels.gaussian import RenormalisedGaussian
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
+from sphframe.physics import LoopParameters
 from sphframe.registry import create
 from sphframe.simulation.components import loop_parts
 
@@ -56,8 +57,8 @@ class Basin:
         position = lattice(BoxRegion(lower=(0.0,) * dim, upper=(side,) * dim), SPACING)
         position += np.random.default_rng(0).uniform(-jitter, jitter, position.shape) * SPACING
         self.n = len(position)
-        c = self.columns = Columns(dim)
-        self.rows = c.empty(self.n + self.boundary.count)
+        c = self.columns = Columns.of(dim)
+        self.rows = c.zeros(self.n + self.boundary.count)
         self.rows[: self.n, c.position] = position
         self.rows[: self.n, c.volume] = SPACING**dim
         self.rows[: self.n, c.density] = DENSITY
@@ -70,13 +71,10 @@ class Basin:
         self.lists.build(self.rows, self.boundary.points)
 
     def fill(self):
-        self.boundary.fill(
-            self.rows,
-            self.lists,
-            kernel_scale=self.kernel.normalisation / self.h**self.dim,
-            reference_density=DENSITY,
-            sound_speed=SPEED,
+        parameters = LoopParameters.of(
+            self.kernel, self.dim, smoothing_length=self.h, reference_density=DENSITY, sound_speed=SPEED
         )
+        self.boundary.fill(self.rows, self.lists, parameters)
         ghosts, c = self.rows[self.n :], self.columns
         wet = self.boundary.statuses != Status.DRY
         return wet, ghosts[:, c.position], ghosts[:, c.velocity], ghosts[:, c.pressure], ghosts[:, c.density]

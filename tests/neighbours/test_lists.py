@@ -22,8 +22,8 @@ from sphframe.particles import Columns
 )
 def test_lists_hold_the_pairs_within_the_radius(dim, seed, fluid, ghosts, scale, stretch, cluster):
     random = np.random.default_rng(seed)
-    columns = Columns(dim)
-    rows = columns.empty(fluid + ghosts)
+    columns = Columns.of(dim)
+    rows = columns.zeros(fluid + ghosts)
     rows[:, columns.position] = random.uniform(-1.0, 1.0, (fluid + ghosts, dim)) * [stretch, *[1.0] * (dim - 1)] * scale
     points = random.uniform(-1.5, 1.5, (ghosts, dim)) * scale
     lists = NeighbourLists(dim, fluid, ghosts, support=0.4 * scale, skin=0.05 * scale, cluster=cluster)
@@ -54,7 +54,7 @@ def test_lists_hold_the_pairs_within_the_radius(dim, seed, fluid, ghosts, scale,
 def test_clusters_are_compact():
     """Consecutive particles fill squares, so their lists are little longer than that of one particle."""
     x, y = np.meshgrid(np.arange(60.0), np.arange(60.0))
-    rows = Columns(2).empty(3600)
+    rows = Columns.of(2).zeros(3600)
     rows[:, :2] = np.random.default_rng(3).permutation(np.stack([x.ravel(), y.ravel()], axis=1))
     lists = NeighbourLists(2, 3600, 0, support=3.9, skin=0.39, cluster=8, width=np.sqrt(8.0))
     rows = rows[lists.sort(rows)]
@@ -65,8 +65,8 @@ def test_clusters_are_compact():
 
 
 def test_sorting_is_stable():
-    columns = Columns(2)
-    rows = columns.empty(5)
+    columns = Columns.of(2)
+    rows = columns.zeros(5)
     lists = NeighbourLists(2, 5, 0, support=1.0, skin=0.1)
     assert list(lists.sort(rows)) == [0, 1, 2, 3, 4]
 
@@ -83,8 +83,8 @@ def test_sorting_is_stable():
 def test_valid_lists_are_complete(dim, seed, fluid, stream, shear, noise):
     """However the fluid has moved: while lists are valid, they hold whatever is within the support."""
     random = np.random.default_rng(seed)
-    columns, ghosts, support, skin, ahead = Columns(dim), 60, 0.4, 0.2, 0.01
-    rows = columns.empty(fluid + ghosts)
+    columns, ghosts, support, skin, ahead = Columns.of(dim), 60, 0.4, 0.2, 0.01
+    rows = columns.zeros(fluid + ghosts)
     rows[:, columns.position] = random.uniform(-1.0, 1.0, (fluid + ghosts, dim))
     points = random.uniform(-1.2, 1.2, (ghosts, dim))
     lists = NeighbourLists(dim, fluid, ghosts, support=support, skin=skin)
@@ -139,7 +139,7 @@ def test_neighbours_move_apart_by_less_than_the_bound(dim, seed, count):
 def test_a_uniform_stream_invalidates_lists_at_walls_only():
     """Fluid that moves as one body keeps its lists twice as long as fluid whose particles move apart."""
     random = np.random.default_rng(5)
-    rows = Columns(2).empty(500)
+    rows = Columns.of(2).zeros(500)
     rows[:, :2] = random.uniform(-1.0, 1.0, (500, 2))
     lists, points = NeighbourLists(2, 500, 0, support=0.4, skin=0.1), np.empty((0, 2))
     rows = rows[lists.sort(rows)]
@@ -155,7 +155,7 @@ def test_a_uniform_stream_invalidates_lists_at_walls_only():
 
 def test_walls_that_have_moved_invalidate_lists():
     """The displacement of ghosts, and of evaluation points, counts as that of the fluid does."""
-    rows, points = Columns(2).empty(3), np.array([[0.0, 0.3]])
+    rows, points = Columns.of(2).zeros(3), np.array([[0.0, 0.3]])
     rows[:, :2] = [[0.0, 0.1], [0.1, 0.1], [0.0, -0.1]]
     lists = NeighbourLists(2, 2, 1, support=0.4, skin=0.1)
     rows[:2] = rows[:2][lists.sort(rows)]
@@ -172,7 +172,7 @@ def test_walls_that_have_moved_invalidate_lists():
 
 def test_restored_lists_are_those_that_were_saved():
     random = np.random.default_rng(7)
-    rows, points = Columns(2).empty(90), random.uniform(-1.0, 1.0, (20, 2))
+    rows, points = Columns.of(2).zeros(90), random.uniform(-1.0, 1.0, (20, 2))
     rows[:, :2] = random.uniform(-1.0, 1.0, (90, 2))
     lists = NeighbourLists(2, 70, 20, support=0.4, skin=0.1, cluster=8)
     rows[:70] = rows[:70][lists.sort(rows)]

@@ -4,13 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sphframe.boundary.operator import compiled_kernel
 from sphframe.compiled import LANES, specialise
 from sphframe.interfaces import CompiledKernel
+from sphframe.kernels import compiled_kernel
 from sphframe.kernels.gaussian import RenormalisedGaussian
 from sphframe.kernels.wendland import WendlandC2
 from sphframe.particles import Columns
-from sphframe.physics import fluid_sums
+from sphframe.physics import LoopParameters, fluid_sums
 
 KERNELS = {"gaussian": RenormalisedGaussian(), "wendland-c2": WendlandC2()}
 
@@ -27,15 +27,24 @@ class Cloud:
     ghost_counts: np.ndarray
 
     @property
-    def support(self):
-        return self.kernel.support * self.h
-
-    @property
     def gradient_scale(self):
         return self.kernel.normalisation / self.h ** (self.dim + 2)
 
-    def columns(self):
-        return Columns(self.dim)
+    def parameters(self, **numbers):
+        """The loops' parameters, with ``numbers`` such as ``diffusion`` as given and zero otherwise."""
+        zero = dict.fromkeys(["gravity", "density_diffusion", "artificial_viscosity"], 0.0)
+        of_case = LoopParameters.of(
+            self.kernel, self.dim, smoothing_length=self.h, reference_density=1000.0, sound_speed=40.0, **zero
+        )
+        return of_case._replace(**numbers)
+
+    def parts(self):
+        return {
+            "DIM": self.dim,
+            "COLUMNS": Columns.of(self.dim),
+            "SUPPORT": self.kernel.support,
+            "GRADIENT": self.kernel.gradient_of_square,
+        }
 
     def grad_kernel(self, x_ji):
         """grad_i W_ij, (n, dim), from the offsets x_j - x_i: the slow way."""
@@ -55,17 +64,10 @@ class Cloud:
         self._sum(True, gradient, rates, **numbers)
         return rates
 
-    def _sum(self, continuity, gradient, rates, *, diffusion=0.0, viscosity=0.0, gravity=0.0):
-        parts = {
-            "DIM": self.dim,
-            "SUPPORT": self.kernel.support,
-            "GRADIENT": self.kernel.gradient_of_square,
-            "CONTINUITY": continuity,
-        }
-        specialise(fluid_sums, parts)(
-            self.rows, self.lists, self.fluid_counts, self.ghost_counts, self.support, self.gradient_scale,
-            diffusion, viscosity, gravity, gradient, rates,
-        )  # fmt: skip
+    def _sum(self, continuity, gradient, rates, **numbers):
+        specialise(fluid_sums, {**self.parts(), "CONTINUITY": continuity})(
+            self.rows, self.lists, self.fluid_counts, self.ghost_counts, self.parameters(**numbers), gradient, rates
+        )
 
 
 def make_cloud(dim, seed=0, *, kernel="gaussian", cells=6, ghosts=True, jitter=0.3, spacing=0.1):
@@ -77,8 +79,8 @@ def make_cloud(dim, seed=0, *, kernel="gaussian", cells=6, ghosts=True, jitter=0
     ghost = (position[:, -1] < 1.5 * spacing) if ghosts else np.zeros(len(position), bool)
     order = np.argsort(ghost, kind="stable")
     position, n = position[order], int((~ghost).sum())
-    columns = Columns(dim)
-    rows = columns.empty(len(position))
+    columns = Columns.of(dim)
+    rows = columns.zeros(len(position))
     rows[:, columns.position] = position
     rows[:, columns.velocity] = random.normal(size=(len(position), dim))
     rows[:, columns.density] = 1000.0 + random.normal(size=len(position))

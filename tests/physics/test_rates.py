@@ -19,7 +19,7 @@ def neighbours(cloud, i):
 
 
 def slow_gradient(cloud):
-    c = cloud.columns()
+    c = Columns.of(cloud.dim)
     gradient = np.zeros((cloud.fluid_count, cloud.dim))
     for i in range(cloud.fluid_count):
         fluid, _ = neighbours(cloud, i)
@@ -32,7 +32,7 @@ def slow_gradient(cloud):
 
 
 def slow_rates(cloud, gradient, diffusion, viscosity, gravity):
-    c = cloud.columns()
+    c = Columns.of(cloud.dim)
     rates = np.zeros((cloud.fluid_count, 2 * cloud.dim + 1))
     for i in range(cloud.fluid_count):
         fluid, ghosts = neighbours(cloud, i)
@@ -74,7 +74,7 @@ def test_rates_equal_the_slow_version(dim, kernel):
 @given(dim=st.sampled_from([2, 3]), seed=st.integers(0, 10_000), slope=st.floats(-500.0, 500.0))
 def test_gradient_and_diffusion_are_exact_for_a_linear_density(dim, seed, slope):
     cloud = make_cloud(dim, seed, ghosts=False, cells=5)
-    c = Columns(dim)
+    c = Columns.of(dim)
     direction = np.arange(1.0, dim + 1.0) * slope
     cloud.rows[:, c.density] = 1000.0 + cloud.rows[:, c.position] @ direction
     cloud.rows[:, c.velocity] = 0.0
@@ -90,7 +90,7 @@ def test_gradient_and_diffusion_are_exact_for_a_linear_density(dim, seed, slope)
 def test_a_free_blob_keeps_its_momentum(dim, seed):
     cloud = make_cloud(dim, seed, ghosts=False, cells=5)
     rates = cloud.rates(cloud.density_gradient(), viscosity=500.0)
-    masses = cloud.rows[:, Columns(dim).mass]
+    masses = cloud.rows[:, Columns.of(dim).mass]
     forces = masses[:, None] * rates[:, dim : 2 * dim]
     assert np.abs(forces.sum(axis=0)).max() < 1e-12 * np.abs(forces).sum(), "momentum must be conserved to round-off"
 
@@ -99,7 +99,7 @@ def test_a_free_blob_keeps_its_momentum(dim, seed):
 @given(dim=st.sampled_from([2, 3]), seed=st.integers(0, 10_000))
 def test_diffusion_keeps_the_volume_weighted_density(dim, seed):
     cloud = make_cloud(dim, seed, ghosts=True, cells=5)
-    c = Columns(dim)
+    c = Columns.of(dim)
     cloud.rows[:, c.velocity] = 0.0
     rates = cloud.rates(cloud.density_gradient(), diffusion=1.0)
     change = cloud.rows[: cloud.fluid_count, c.volume] * rates[:, -1]
@@ -110,7 +110,7 @@ def test_diffusion_keeps_the_volume_weighted_density(dim, seed):
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_spray_never_gives_nan(dim, count):
     cloud = make_cloud(dim, 0, ghosts=False, cells=2)
-    c = Columns(dim)
+    c = Columns.of(dim)
     cloud.rows[:, c.position] *= 100.0  # too far apart to see each other
     for k in range(count):  # but for a few on one line, two of them at one place
         cloud.rows[k, c.position] = [0.01 * (k // 2), *[0.0] * (dim - 1)]
@@ -123,7 +123,7 @@ def test_spray_never_gives_nan(dim, count):
 @pytest.mark.parametrize("dim", [2, 3])
 def test_wall_reaction_is_opposite_to_what_ghosts_do_to_the_fluid(dim):
     cloud = make_cloud(dim, 3, cells=9 if dim == 2 else 5)
-    c = Columns(dim)
+    c = Columns.of(dim)
     gradient = np.zeros((cloud.fluid_count, dim))
     viscosity = 50.0
     with_ghosts = cloud.rates(gradient, viscosity=viscosity)
@@ -135,12 +135,9 @@ def test_wall_reaction_is_opposite_to_what_ghosts_do_to_the_fluid(dim):
     ghosts = len(cloud.rows) - cloud.fluid_count
     walls = (np.arange(ghosts) % 2).astype(np.int64)
     loads, partial = np.full((2, 3), np.nan), np.full((7, 2, 3), np.nan)
-    loop = specialise(
-        wall_reaction, {"DIM": dim, "SUPPORT": cloud.kernel.support, "GRADIENT": cloud.kernel.gradient_of_square}
-    )
-    loop(
+    specialise(wall_reaction, cloud.parts())(
         cloud.rows, cloud.fluid_count, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, walls,
-        np.full_like(walls, -1), np.zeros((ghosts, dim)), np.zeros((2, dim)), cloud.support, cloud.gradient_scale,
-        viscosity, partial, loads,
+        np.full_like(walls, -1), np.zeros((ghosts, dim)), np.zeros((2, dim)), cloud.parameters(viscosity=viscosity),
+        partial, loads,
     )  # fmt: skip
     np.testing.assert_allclose(loads[:, :dim].sum(axis=0), expected, rtol=1e-10)

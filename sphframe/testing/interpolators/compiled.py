@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from sphframe.boundary.operator import compiled_kernel, weights_loop
+from sphframe.boundary.operator import weights_loop
 from sphframe.compiled import compile_part
 from sphframe.interfaces import BoundaryInterpolator
 from sphframe.interfaces.traits import OK
+from sphframe.kernels import compiled_kernel
 from sphframe.registry import create
 from sphframe.testing.evaluation import extrapolates, plain_evaluator, title
 from sphframe.testing.interpolators.comparison import (

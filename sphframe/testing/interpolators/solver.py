@@ -4,12 +4,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sphframe.boundary.boundary import Boundary
-from sphframe.boundary.operator import compiled_kernel, operator
+from sphframe.boundary.operator import operator
 from sphframe.geometry import PolygonWall
 from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint
+from sphframe.kernels import compiled_kernel
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
+from sphframe.physics import LoopParameters
 from sphframe.registry import create
+from sphframe.simulation.components import loop_parts
 from sphframe.testing.evaluation import title
 from sphframe.testing.proof import BrokenPromiseError
 
@@ -31,7 +34,7 @@ def check_solver_agrees(method: BoundaryInterpolator, dim: int) -> None:
     if dim != 2:
         return
     boundary, rows = _filled_pool(method)
-    n, columns = len(rows) - boundary.count, Columns(dim)
+    n, columns = len(rows) - boundary.count, Columns.of(dim)
     lift = boundary.lifts if method.traits.evaluation_point is EvaluationPoint.EXTRAPOLATED else None
     matrix, statuses = operator(
         method,
@@ -58,7 +61,7 @@ def check_solver_agrees(method: BoundaryInterpolator, dim: int) -> None:
 
 def _filled_pool(method: BoundaryInterpolator) -> tuple[Boundary, Array]:
     """A jittered pool with a free surface in the corner of two walls, without gravity; its ghosts are filled."""
-    columns = Columns(2)
+    columns = Columns.of(2)
     chosen = create("kernels", "gaussian")
     kernel = compiled_kernel(chosen, 2)
     support = chosen.support * _SMOOTHING_LENGTH
@@ -67,7 +70,7 @@ def _filled_pool(method: BoundaryInterpolator) -> tuple[Boundary, Array]:
         {},
         method,
         kernel,
-        create("equations_of_state", "linear"),
+        loop_parts(kernel, create("equations_of_state", "linear"), 2),
         spacing=_SPACING,
         support=support,
         no_slip=False,
@@ -76,13 +79,15 @@ def _filled_pool(method: BoundaryInterpolator) -> tuple[Boundary, Array]:
     )
     fluid = _fluid_rows(columns)
     n = len(fluid)
-    rows = np.concatenate([fluid, columns.empty(boundary.count)])
+    rows = np.concatenate([fluid, columns.zeros(boundary.count)])
     lists = NeighbourLists(2, n, boundary.count, support, 0.1 * support)
     rows[:n] = rows[lists.sort(rows)]
     boundary.move([], rows[n:], np.zeros(2), 1000.0)
     lists.build(rows, boundary.points)
-    kernel_scale = kernel.normalisation / _SMOOTHING_LENGTH**2
-    boundary.fill(rows, lists, kernel_scale=kernel_scale, reference_density=1000.0, sound_speed=40.0)
+    parameters = LoopParameters.of(
+        kernel, 2, smoothing_length=_SMOOTHING_LENGTH, reference_density=1000.0, sound_speed=40.0
+    )
+    boundary.fill(rows, lists, parameters)
     return boundary, rows
 
 
@@ -92,7 +97,7 @@ def _fluid_rows(columns: Columns) -> Array:
     x, y = np.meshgrid(np.arange(14), np.arange(7), indexing="ij")
     position = (np.column_stack([x.ravel(), y.ravel()]) + 0.5 + rng.uniform(-0.2, 0.2, (x.size, 2))) * _SPACING
     position = position[rng.permutation(len(position))]
-    rows: Array = columns.empty(len(position))
+    rows: Array = columns.zeros(len(position))
     rows[:, columns.position] = position
     rows[:, columns.velocity] = rng.normal(size=position.shape)
     rows[:, columns.density] = 1000.0

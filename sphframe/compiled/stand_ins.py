@@ -1,0 +1,49 @@
+"""Compiled: the global names that loop templates use, until :func:`specialise` binds the parts of a run to them.
+
+A template imports the names that it uses; it runs only after ``specialise`` has bound all of them. The values here are
+for readers and type checkers.
+"""
+
+from typing import Any, NoReturn
+
+from sphframe.interfaces import WeightsFunction
+from sphframe.interfaces.equation_of_state import StateFunction
+from sphframe.interfaces.kernel import ScalarFunction
+from sphframe.particles import Columns
+
+__all__ = [
+    "COLUMNS",
+    "DENSITY",
+    "DIM",
+    "FALLBACK",
+    "GRADIENT",
+    "PRESSURE",
+    "SUPPORT",
+    "VALUE",
+    "WEIGHTS",
+]
+
+
+def _not_bound(*_: Any) -> NoReturn:
+    """Raise, since a template was called that ``specialise`` did not bind."""
+    raise NotImplementedError("a loop template runs only when specialise() has bound its parts")
+
+
+DIM = 2
+"""number of dimensions, 2 or 3"""
+COLUMNS = Columns.of(DIM)
+"""the columns of a row in that many dimensions"""
+SUPPORT = 3.0
+"""cut-off radius of the kernel in smoothing lengths, R/h"""
+VALUE: ScalarFunction = _not_bound
+"""w(q) of the kernel"""
+GRADIENT: ScalarFunction = _not_bound
+"""w'(q)/q of the kernel, as a function of q^2"""
+PRESSURE: StateFunction = _not_bound
+"""the equation of state, p(rho, rho0, c0)"""
+DENSITY: StateFunction = _not_bound
+"""its inverse, rho(p, rho0, c0)"""
+WEIGHTS: WeightsFunction = _not_bound
+"""weights of the interpolation method at one evaluation point"""
+FALLBACK: WeightsFunction = _not_bound
+"""weights used where the method has none"""

@@ -1,0 +1,57 @@
+"""Physics: the numbers that the loops need, in one tuple that compiled functions read."""
+
+from typing import NamedTuple
+
+from sphframe.interfaces import CompiledKernel
+
+__all__ = ["LoopParameters"]
+
+
+class LoopParameters(NamedTuple):
+    """Constants of a run, as the terms of the equations use them; d is the number of dimensions.
+
+    Attributes
+    ----------
+    smoothing_length: h, m; ``support``: cut-off radius R, m.
+    kernel_scale: sigma_d / h^d, m^-d; ``gradient_scale``: sigma_d / h^(d+2), m^-(d+2).
+    reference_density: rho0, kg/m^3; ``sound_speed``: c0, m/s.
+    gravity: g, m/s^2, downwards along the last axis.
+    diffusion: delta h c0, m^2/s, factor of the density diffusion.
+    viscosity: alpha h c0 rho0, Pa s, factor of the artificial viscosity.
+    """
+
+    smoothing_length: float
+    support: float
+    kernel_scale: float
+    gradient_scale: float
+    reference_density: float
+    sound_speed: float
+    gravity: float
+    diffusion: float
+    viscosity: float
+
+    @classmethod
+    def of(
+        cls,
+        kernel: CompiledKernel,
+        dim: int,
+        *,
+        smoothing_length: float,
+        reference_density: float,
+        sound_speed: float,
+        gravity: float = 0.0,
+        density_diffusion: float = 0.0,
+        artificial_viscosity: float = 0.0,
+    ) -> "LoopParameters":
+        """Return the constants for the dimensionless ``density_diffusion`` delta and ``artificial_viscosity`` alpha."""
+        return cls(
+            smoothing_length=float(smoothing_length),
+            support=float(kernel.support * smoothing_length),
+            kernel_scale=float(kernel.normalisation / smoothing_length**dim),
+            gradient_scale=float(kernel.normalisation / smoothing_length ** (dim + 2)),
+            reference_density=float(reference_density),
+            sound_speed=float(sound_speed),
+            gravity=float(gravity),
+            diffusion=float(density_diffusion * smoothing_length * sound_speed),
+            viscosity=float(artificial_viscosity * smoothing_length * sound_speed * reference_density),
+        )
