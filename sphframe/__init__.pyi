@@ -1,0 +1,36 @@
+from sphframe.boundary.operator import ParticleCloud as ParticleCloud
+from sphframe.cases import Case as Case
+from sphframe.cases import load_case as load_case
+from sphframe.compiled import fast_exp as fast_exp
+from sphframe.compiled import local_array as local_array
+from sphframe.errors import InputError as InputError
+from sphframe.errors import OutputError as OutputError
+from sphframe.errors import PluginError as PluginError
+from sphframe.errors import SimulationError as SimulationError
+from sphframe.errors import SphframeError as SphframeError
+from sphframe.hooks import hookimpl as hookimpl
+from sphframe.interfaces import DRY as DRY
+from sphframe.interfaces import OK as OK
+from sphframe.interfaces import SINGULAR as SINGULAR
+from sphframe.interfaces import TOO_FEW as TOO_FEW
+from sphframe.interfaces import BoundaryInterpolator as BoundaryInterpolator
+from sphframe.interfaces import CompiledKernel as CompiledKernel
+from sphframe.interfaces import EquationOfState as EquationOfState
+from sphframe.interfaces import EvaluationPoint as EvaluationPoint
+from sphframe.interfaces import Integrator as Integrator
+from sphframe.interfaces import Kernel as Kernel
+from sphframe.interfaces import Motion as Motion
+from sphframe.interfaces import RigidBody as RigidBody
+from sphframe.interfaces import Status as Status
+from sphframe.interfaces import System as System
+from sphframe.interfaces import Traits as Traits
+from sphframe.interfaces import WeightsFunction as WeightsFunction
+from sphframe.output import open_dataset as open_dataset
+from sphframe.registry import available as available
+from sphframe.registry import create as create
+from sphframe.simulation.run import Run as Run
+from sphframe.simulation.run import resume as resume
+from sphframe.simulation.run import run as run
+from sphframe.simulation.simulation import Simulation as Simulation
+
+__version__: str
