@@ -1,7 +1,10 @@
 """Configuration of the documentation: ``sphinx-build -W docs SITE``."""
 
+import functools
 import os
 import re
+
+from nbclient import NotebookClient
 
 import sphframe
 
@@ -23,6 +26,8 @@ nb_execution_mode = os.environ.get("SPHFRAME_DOCS_NOTEBOOKS", "force")  # "off" 
 nb_execution_raise_on_error = True
 nb_execution_in_temp = True
 nb_execution_timeout = -1  # a slow machine is no error
+# MyST-NB passes on no limit for the start of the kernel, which is 60 s by default
+NotebookClient.__init__ = functools.partialmethod(NotebookClient.__init__, startup_timeout=1800, iopub_timeout=1800)
 nb_merge_streams = True
 autodoc_typehints = "description"
 autodoc_member_order = "alphabetical"

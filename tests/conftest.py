@@ -7,10 +7,15 @@ from textwrap import dedent
 from types import ModuleType
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from sphframe import registry
 
 Install = Callable[..., Path]
+
+# no test depends on speed: other processes may keep all cores busy
+settings.register_profile("any-speed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("any-speed")
 
 
 @pytest.fixture(scope="session")
