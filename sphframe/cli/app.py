@@ -31,7 +31,7 @@ sphframe {version}: a laboratory for wall boundaries in SPH free-surface flow
   sphframe run dam-break        simulate a case (about a minute)
   sphframe resume dam-break.nc  continue a run that was interrupted
   sphframe compare dam-break    several methods and resolutions side by side
-  sphframe reproduce            the whole paper, with a report of the results
+  sphframe reproduce            a study, such as a whole paper, with a report
   sphframe plot dam-break.nc    pictures: particles, probes, energies
   sphframe animate dam-break.nc a film, .mp4 or .gif
   sphframe watch dam-break.nc   a page that shows a run while it is running
@@ -167,23 +167,30 @@ def _compare(
 
 @app.command("reproduce")
 def _reproduce(
-    output: Annotated[Path, typer.Option(metavar="DIR", help="folder for the report, figures, tables and runs")],
+    study: Annotated[
+        str | None,
+        typer.Argument(metavar="STUDY", help="an installed study, such as huang2019; by default the only one"),
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="folder for the report, figures, tables and runs; required")
+    ] = None,
     only: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="SECTION",
-            help="hydrostatic-tank, dam-break, fixed-wall, movable-wall or cost; repeatable, or with commas",
-        ),
+        typer.Option(metavar="SECTION", help="a section of the study, such as cost; repeatable, or with commas"),
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="coarse and short, ten minutes on two cores")] = False,
     reference: Annotated[Path | None, typer.Option(metavar="DIR", help="folder of reference series")] = None,
     workers: Workers = None,
     scheduler: Scheduler = None,
 ) -> None:
-    """Reproduce the paper: all its runs, and a report with every figure, every table and a verdict on each claim."""
+    """Carry out a study: all its runs, and a report with every figure, every table and a verdict on each claim.
+
+    Without STUDY and with several studies installed, the command lists them.
+    """
     from sphframe.cli.reproduce import reproduce_command
 
     reproduce_command(
+        study,
         only=only or [],
         quick=quick,
         reference=reference,

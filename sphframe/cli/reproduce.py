@@ -11,7 +11,8 @@ from rich.progress import BarColumn, TextColumn, TimeElapsedColumn, TimeRemainin
 from rich.progress import Progress as Bar
 
 from sphframe.cli.run import console_log
-from sphframe.studies import Progress, reproduce
+from sphframe.errors import InputError
+from sphframe.studies import Progress, installed_study, reproduce
 from sphframe.studies.engine import Watch
 
 __all__ = ["reproduce_command", "shown_progress"]
@@ -21,22 +22,26 @@ _LINE_EVERY = 60.0
 
 
 def reproduce_command(
+    name: str | None,
     *,
     only: Sequence[str],
     quick: bool,
     reference: Path | None,
     workers: int | None,
     scheduler: str | None,
-    output: Path,
+    output: Path | None,
 ) -> None:
-    """Reproduce the paper and say where the report is."""
-    names = [name for given in only for name in given.split(",") if name]
+    """Carry out the study ``name``, or the only one that is installed, and print where the report is."""
+    study = installed_study(name)
+    if output is None:
+        raise InputError(f"give the folder for the report of {study.title!r}: --output DIR")
     log = console_log()
     try:
         with shown_progress(log) as watch:
             report = reproduce(
-                output,
-                only=names,
+                study,
+                output=output,
+                only=[section for given in only for section in given.split(",") if section],
                 quick=quick,
                 reference=reference,
                 workers=workers,
@@ -44,7 +49,7 @@ def reproduce_command(
                 watch=watch,
             )
     except KeyboardInterrupt:
-        log.print("what is done is kept; the same command continues")
+        log.print("finished runs are kept; repeat the command to continue")
         raise
     Console(highlight=False, soft_wrap=True).print(f"wrote {report}", markup=False)
 

@@ -91,8 +91,8 @@ def _loaded(entry: Entry) -> Any:
 def _interface(kind: str) -> type | None:
     """Return the class that components of ``kind`` extend; None for hooks, which may be any object.
 
-    The imports are here because a list of names needs none of them. That of ``Case`` goes against the order of the
-    rooms; pyproject.toml lists it as an exception.
+    The imports are here because a list of names needs none of them. Those of ``Case`` and ``Study`` go against the
+    order of the rooms; pyproject.toml lists them as exceptions.
     """
     if kind == "hooks":
         return None
@@ -100,6 +100,10 @@ def _interface(kind: str) -> type | None:
         from sphframe.cases.case import Case
 
         return Case
+    if kind == "studies":
+        from sphframe.studies.study import Study
+
+        return Study
     from sphframe import interfaces
 
     return {

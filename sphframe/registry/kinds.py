@@ -14,6 +14,7 @@ LABELS = {
     "integrators": "integrator",
     "rigid_bodies": "rigid body",
     "cases": "case",
+    "studies": "study",
     "hooks": "hook",
 }
 """the kinds of components, each with its name in the singular for messages"""
@@ -36,5 +37,6 @@ DISTRIBUTIONS = {
     ("interpolators", "mls-quadratic"): "sphframe-mls",
     ("interpolators", "mdbc"): "sphframe-mdbc",
     ("interpolators", "adami"): "sphframe-adami",
+    ("studies", "huang2019"): "sphframe-huang2019",
 }
-"""the distribution to install for the name of a method of this project that is missing"""
+"""the distribution to install for the name of a method or study of this project that is missing"""

@@ -1,4 +1,4 @@
-"""Studies: the paper from its cases to the report."""
+"""Studies: carries out a study, from its runs to the report."""
 
 import dataclasses
 from collections.abc import Mapping, Sequence
@@ -11,22 +11,15 @@ from sphframe.errors import InputError, OutputError
 from sphframe.output import open_dataset
 from sphframe.output.provenance import distributions, software
 from sphframe.registry.nearest import did_you_mean
-from sphframe.studies.chapter import Table
+from sphframe.studies.chapter import Chapter, Table
 from sphframe.studies.engine import Watch, carry_out
 from sphframe.studies.report import write_report
-from sphframe.studies.sections import SECTIONS, Section
+from sphframe.studies.section import Section
 from sphframe.studies.series import Reference
+from sphframe.studies.study import Study, installed_study
 
 __all__ = ["reproduce"]
 
-TITLE = "Huang et al. (2019), Water 11, 1110, computed anew"
-_SOURCE = (
-    "X. Huang, W. Chen, Z. Hu, X. Zheng, S. Jin, X. Zhang: Application Research of an Efficient and Stable Boundary"
-    " Processing Method for the SPH Method. Water 11 (2019) 1110, doi:10.3390/w11051110. Every run of the paper's"
-    " sections was made anew with each method that the paper compares, by its mirror lift, and with this project's own"
-    " variants beside them. What is printed wrong or not given there is settled in the documentation of the cases and"
-    " methods."
-)
 _QUICK = (
     "This is the quick version, at coarse resolutions and for short times: it shows that everything works, and its"
     " numbers and verdicts are not those of the paper's resolutions."
@@ -34,43 +27,40 @@ _QUICK = (
 
 
 def reproduce(
-    output: Path,
+    study: Study | str,
     *,
+    output: Path,
     only: Sequence[str] = (),
     quick: bool = False,
     reference: Path | None = None,
     workers: int | None = None,
     scheduler: str | None = None,
     watch: Watch = lambda progress: None,
-    sections: Mapping[str, Section] = SECTIONS,
 ) -> Path:
-    """Run what is missing of the paper's sections and write the report; return its path.
+    """Carry out the runs of a study that are not done yet, and write the report; return its path.
 
-    Interrupted at any moment and called again, it continues where it stopped: a finished run is never repeated, an
-    unfinished one goes on from its last checkpoint, and the report is the same as without the interruption.
+    A call that was interrupted continues when it is repeated: a finished run is never repeated, an unfinished one goes
+    on from its last checkpoint, and the report is the same as without the interruption.
 
     Parameters
     ----------
-    output: folder for ``report.html``, ``figures/``, ``tables/`` and ``runs/``.
+    study: a study, or the name of an installed one.
+    output: folder for ``report.html``, ``report.md``, ``figures/``, ``tables/`` and ``runs/``.
     only: names of sections; all by default.
-    quick: coarse and short, in minutes.
-    reference: folder of reference series, see :func:`sphframe.analysis.read_reference_series`; what it lacks is left
-        out, and the report says so.
+    quick: run at coarse resolutions and for short times, which takes minutes.
+    reference: folder of reference series, see :func:`sphframe.analysis.read_reference_series`. Series that are not
+        there are left out, and the report names them.
     workers, scheduler, watch: see :func:`sphframe.studies.engine.carry_out`.
-    sections: all sections there are.
 
     Raises
     ------
     InputError: a section is unknown, or something is not installed.
+    PluginError: the study is not installed or cannot be used.
     OutputError: the folder cannot be written.
     SphframeError: what a run raised that is not a result of its own.
     """
-    unknown = [name for name in only if name not in sections]
-    if unknown:
-        raise InputError(
-            f"there is no section {unknown[0]!r}{did_you_mean(unknown[0], sections)}; choose of {', '.join(sections)}"
-        )
-    chosen = {name: section for name, section in sections.items() if not only or name in only}
+    chosen_study = installed_study(study) if isinstance(study, str) else study
+    sections = _chosen(chosen_study.sections(), only)
     series = Reference(reference)
     try:
         output.mkdir(parents=True, exist_ok=True)
@@ -78,29 +68,43 @@ def reproduce(
         raise OutputError(
             f"cannot make the folder {output}: {error.strerror or error}; give another --output"
         ) from None
-    tasks = {name: section.tasks(quick) for name, section in chosen.items()}
+    tasks = {section.name: section.tasks(quick) for section in sections}
     every = [task for own in tasks.values() for task in own]
     files = carry_out(every, output / "runs", workers=workers, scheduler=scheduler, watch=watch)
-    chapters, versions = [], dict[str, str]()
-    for name, section in chosen.items():
-        opened = {task.label: _open(files[task.label]) for task in tasks[name]}
-        try:
-            series.absent.clear()
-            chapter = section.chapter(opened, series, quick)
-            stopped = _stopped(name, opened)
-        finally:
-            for dataset in opened.values():
-                dataset.close()
-        chapters.append(dataclasses.replace(chapter, tables=[*chapter.tables, stopped], absent=tuple(series.absent)))
-        for task in tasks[name]:
-            versions |= distributions(task.case())
+    versions = dict[str, str]()
+    for task in every:
+        versions |= distributions(task.case())
     return write_report(
         output,
-        TITLE,
-        chapters,
-        preface=[_SOURCE, *([_QUICK] if quick else [])],
+        chosen_study.title,
+        [
+            _chapter(section, {task.label: files[task.label] for task in tasks[section.name]}, series, quick)
+            for section in sections
+        ],
+        preface=[chosen_study.source, *([_QUICK] if quick else [])],
         facts={"sphframe": sphframe.__version__, **dict(sorted(versions.items())), **software()},
     )
+
+
+def _chosen(sections: Sequence[Section], only: Sequence[str]) -> list[Section]:
+    names = [section.name for section in sections]
+    for name in only:
+        if name not in names:
+            raise InputError(f"there is no section {name!r}{did_you_mean(name, names)}; choose from {', '.join(names)}")
+    return [section for section in sections if not only or section.name in only]
+
+
+def _chapter(section: Section, files: Mapping[str, Path], series: Reference, quick: bool) -> Chapter:
+    """Write the chapter of a section from the files of its runs, with a table of the runs that were stopped."""
+    runs = {label: _open(path) for label, path in files.items()}
+    try:
+        series.absent.clear()
+        chapter = section.chapter(runs, series, quick)
+        stopped = _stopped(section.name, runs)
+    finally:
+        for dataset in runs.values():
+            dataset.close()
+    return dataclasses.replace(chapter, tables=[*chapter.tables, stopped], absent=tuple(series.absent))
 
 
 def _stopped(section: str, runs: Mapping[str, xr.Dataset]) -> Table:

@@ -49,7 +49,7 @@ def test_killed_twice_it_repeats_nothing_and_reports_the_same(tiny: ModuleType, 
     after = results(folder)
     assert len(after) == 4
     assert {name: after[name] for name in done} == done
-    reproduce(tmp_path / "undisturbed", sections=tiny.TINY, scheduler=cluster)
+    reproduce(tiny.Tiny(), output=tmp_path / "undisturbed", scheduler=cluster)
     assert written(folder) == written(tmp_path / "undisturbed")
 
 
@@ -73,7 +73,7 @@ def test_on_a_scheduler_and_two_workers_started_by_hand(tiny: ModuleType, tmp_pa
                     break
             assert time.monotonic() < until, "the scheduler does not start"
             time.sleep(0.1)
-        report = reproduce(tmp_path / "output", quick=True, sections=tiny.TINY, scheduler=address)
+        report = reproduce(tiny.Tiny(), output=tmp_path / "output", quick=True, scheduler=address)
         assert report.exists()
         assert len(results(tmp_path / "output")) == 4
         assert all(process.poll() is None for process in processes), "what the user has started goes on"

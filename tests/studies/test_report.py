@@ -22,7 +22,7 @@ spec.loader.exec_module(browser)  # type: ignore[union-attr]
 
 @pytest.fixture(scope="module")
 def report(tiny: ModuleType, cluster: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return reproduce(tmp_path_factory.mktemp("report"), quick=True, sections=tiny.TINY, scheduler=cluster)
+    return reproduce(tiny.Tiny(), output=tmp_path_factory.mktemp("report"), quick=True, scheduler=cluster)
 
 
 def test_every_picture_decodes_and_is_a_file(report: Path) -> None:
@@ -72,7 +72,7 @@ def test_the_markdown_names_every_figure_and_table(report: Path, tiny: ModuleTyp
 def test_written_again_it_is_the_same(report: Path, tiny: ModuleType) -> None:
     files = sorted(path for path in report.parent.rglob("*") if path.suffix in (".html", ".md", ".svg", ".png", ".csv"))
     before = [path.read_bytes() for path in files]
-    reproduce(report.parent, quick=True, sections=tiny.TINY)
+    reproduce(tiny.Tiny(), output=report.parent, quick=True)
     assert [path.read_bytes() for path in files] == before
 
 
@@ -98,7 +98,7 @@ def test_reference_series_are_noted_when_absent(tmp_path: Path) -> None:
 def test_a_run_that_was_stopped_says_why(tiny: ModuleType, cluster: str, tmp_path: Path) -> None:
     broken = tiny.tank(courant_number=3.0)
     section = Section("broken-tank", lambda quick: [RunTask.of("broken", broken)], tiny.chapter)
-    report = reproduce(tmp_path, sections={"broken-tank": section}, scheduler=cluster)
+    report = reproduce(tiny.Tiny(section), output=tmp_path, scheduler=cluster)
     with (tmp_path / "tables" / "broken_tank_stopped.csv").open(newline="") as file:
         (row,) = csv.DictReader(file)
     assert row["run"] == "broken"

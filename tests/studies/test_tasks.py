@@ -14,7 +14,6 @@ from sphframe.geometry import BoxRegion, BoxWall
 from sphframe.output.checkpoint import checkpoint_path
 from sphframe.studies import tasks
 from sphframe.studies.measurement import CostTask
-from sphframe.studies.sections import SECTIONS
 from sphframe.studies.tasks import UNFINISHED, RunTask, work
 
 
@@ -167,11 +166,3 @@ def test_costs_are_measured_for_each_method_on_the_same_state(tiny: ModuleType, 
         assert (measured["step"] > measured["fill"]).all()
         assert measured["neighbours"].sel(interpolator="a") > measured["neighbours"].sel(interpolator="b") > 5
         assert measured.attrs["machine: processor"]
-
-
-@pytest.mark.parametrize("quick", [True, False], ids=["quick", "whole"])
-@pytest.mark.parametrize("name", SECTIONS)
-def test_the_tasks_of_a_section_differ_and_are_valid(name: str, quick: bool) -> None:
-    own = SECTIONS[name].tasks(quick)
-    assert len({task.label for task in own}) == len({task.name for task in own}) == len(own) > 4
-    assert all(task.weight > 0.0 for task in own)

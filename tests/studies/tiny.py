@@ -4,14 +4,14 @@ Run as a program, ``tiny.py OUTPUT``, it reproduces that section on two local wo
 """
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
 from sphframe.cases.hydrostatic_tank import HydrostaticTank
-from sphframe.studies import Section, reproduce
+from sphframe.studies import Section, Study, reproduce
 from sphframe.studies.chapter import Chapter, Claim, Table
 from sphframe.studies.drawing import new_figure, picture, tidy
 from sphframe.studies.series import Reference
@@ -59,7 +59,18 @@ def chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) -
     )
 
 
-TINY = {"tiny": Section("tiny", tasks, chapter)}
+class Tiny(Study):
+    """The study of that section, or of others."""
+
+    title = "Tiny tanks"
+    source = "Nothing is published."
+
+    def __init__(self, *sections: Section) -> None:
+        self._sections = sections or (Section("tiny", tasks, chapter),)
+
+    def sections(self) -> Sequence[Section]:
+        return self._sections
+
 
 if __name__ == "__main__":
-    reproduce(Path(sys.argv[1]), sections=TINY, workers=2)
+    reproduce(Tiny(), output=Path(sys.argv[1]), workers=2)

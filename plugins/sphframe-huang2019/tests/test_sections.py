@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
+from sphframe_huang2019 import cost, dam_break
 
-from sphframe.studies.chapter import Verdict
-from sphframe.studies.sections import cost, dam_break
+from sphframe.studies import Verdict
 
 
 def pressure() -> xr.DataArray:

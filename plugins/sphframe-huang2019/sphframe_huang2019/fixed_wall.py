@@ -1,4 +1,4 @@
-"""Studies: the solitary wave on the fixed, leaning wall, section 4.3 of the paper, Figs. 10 and 11."""
+"""The solitary wave on the fixed, leaning wall, section 4.3 of the paper, Figs. 10 and 11."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -7,12 +7,25 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from sphframe.analysis import plot_run
-from sphframe.studies.chapter import Cell, Chapter, Claim, Picture, Table
-from sphframe.studies.drawing import colour, new_figure, picture, thinned, tidy
-from sphframe.studies.sections.section import OURS, PAPER, Section, Variant, run_task
-from sphframe.studies.series import Reference, ended, fallback_share, running_mean
-from sphframe.studies.tasks import Task
+from sphframe.analysis import plot_run, running_mean
+from sphframe.studies import (
+    Cell,
+    Chapter,
+    Claim,
+    Picture,
+    Reference,
+    Section,
+    Table,
+    Task,
+    colour,
+    ended,
+    fallback_share,
+    new_figure,
+    picture,
+    thinned,
+    tidy,
+)
+from sphframe_huang2019.variants import OURS, PAPER, Variant, run_with
 
 __all__ = ["SECTION"]
 
@@ -31,7 +44,7 @@ def _tasks(quick: bool) -> list[Task]:
     own: dict[str, Any] = {"time_step": None}
     if quick:
         own |= {"tank_length": 3.0, "particle_spacing": 0.025}
-    return [run_task(_label(v), "solitary-wave-fixed-wall", v, "paper", **own) for v in VARIANTS]
+    return [run_with(v, _label(v), "solitary-wave-fixed-wall", **own) for v in VARIANTS]
 
 
 def _figures(dataset: xr.Dataset) -> dict[str, Any]:

@@ -1,21 +1,29 @@
-"""Studies: what the methods cost: Table 1 and the speed-ups of Figs. 4, 9 and 12 of the paper."""
+"""What the methods cost: Table 1 and the speed-ups of Figs. 4, 9 and 12 of the paper."""
 
 import math
-import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from sphframe.cases import CaseWarning, load_case
-from sphframe.output.provenance import registered_name
-from sphframe.studies.chapter import Cell, Chapter, Claim, Picture, Table
-from sphframe.studies.drawing import colour, new_figure, picture, tidy
-from sphframe.studies.measurement import CostTask
-from sphframe.studies.sections.section import PAPER, Section, Variant
-from sphframe.studies.series import Reference
-from sphframe.studies.tasks import Task
+from sphframe.studies import (
+    Cell,
+    Chapter,
+    Claim,
+    CostTask,
+    Picture,
+    Reference,
+    Section,
+    Table,
+    Task,
+    colour,
+    new_figure,
+    picture,
+    run_task,
+    tidy,
+)
+from sphframe_huang2019.variants import PAPER, Variant
 
 __all__ = ["SECTION"]
 
@@ -80,13 +88,11 @@ def _tasks(quick: bool) -> list[Task]:
 
 
 def _task(label: str, case: str, repeats: int, after: float, **parameters: Any) -> CostTask:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", CaseWarning)
-        made = load_case(case, "paper", parameters)
+    run = run_task(label, case, "paper", **parameters)
     return CostTask(
         label,
-        registered_name(type(made)),
-        made.model_dump(mode="json"),
+        run.case_name,
+        run.parameters,
         methods={v.label: (v.interpolator, v.lift) for v in VARIANTS},
         after=after,
         repeats=repeats,

@@ -1,4 +1,4 @@
-"""Studies: the solitary wave on the movable seawall, section 4.4 of the paper, Figs. 13 to 15."""
+"""The solitary wave on the movable seawall, section 4.4 of the paper, Figs. 13 to 15."""
 
 import math
 from collections.abc import Mapping
@@ -8,11 +8,24 @@ import numpy as np
 import xarray as xr
 
 from sphframe.analysis import plot_run, pressure_scale
-from sphframe.studies.chapter import Cell, Chapter, Claim, Picture, Table
-from sphframe.studies.drawing import colour, new_figure, picture, thinned, tidy
-from sphframe.studies.sections.section import PAPER, Section, Variant, run_task
-from sphframe.studies.series import Reference, ended, fallback_share
-from sphframe.studies.tasks import Task
+from sphframe.studies import (
+    Cell,
+    Chapter,
+    Claim,
+    Picture,
+    Reference,
+    Section,
+    Table,
+    Task,
+    colour,
+    ended,
+    fallback_share,
+    new_figure,
+    picture,
+    thinned,
+    tidy,
+)
+from sphframe_huang2019.variants import PAPER, Variant, run_with
 
 __all__ = ["SECTION"]
 
@@ -55,8 +68,8 @@ def _tasks(quick: bool) -> list[Task]:
     coarse: dict[str, Any] = {"particle_spacing": 0.02, "time_step": None} if quick else {}
     held = {**HELD, **coarse}
     return [
-        *(run_task(_label(v), "solitary-wave-movable-wall", v, "paper", **coarse) for v in VARIANTS),
-        *(run_task(_held_label(v), "solitary-wave-fixed-wall", v, "paper", **held) for v in (SHEPARD, SFDI)),
+        *(run_with(v, _label(v), "solitary-wave-movable-wall", **coarse) for v in VARIANTS),
+        *(run_with(v, _held_label(v), "solitary-wave-fixed-wall", **held) for v in (SHEPARD, SFDI)),
     ]
 
 

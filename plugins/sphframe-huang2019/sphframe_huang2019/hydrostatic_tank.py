@@ -1,4 +1,4 @@
-"""Studies: still water in a tank, section 4.1 of the paper, Figs. 3 and 4."""
+"""Still water in a tank, section 4.1 of the paper, Figs. 3 and 4."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -7,11 +7,24 @@ import numpy as np
 import xarray as xr
 
 from sphframe.analysis import pressure_scale, rest_pressure
-from sphframe.studies.chapter import Cell, Chapter, Claim, Picture, Table
-from sphframe.studies.drawing import colour, new_figure, picture, thinned, tidy
-from sphframe.studies.sections.section import OURS, PAPER, Section, Variant, run_task
-from sphframe.studies.series import Reference, ended, fallback_share
-from sphframe.studies.tasks import Task
+from sphframe.studies import (
+    Cell,
+    Chapter,
+    Claim,
+    Picture,
+    Reference,
+    Section,
+    Table,
+    Task,
+    colour,
+    ended,
+    fallback_share,
+    new_figure,
+    picture,
+    thinned,
+    tidy,
+)
+from sphframe_huang2019.variants import OURS, PAPER, Variant, run_with
 
 __all__ = ["SECTION"]
 
@@ -26,7 +39,7 @@ def _tasks(quick: bool) -> list[Task]:
     own: dict[str, Any] = {"time_step": None}
     if quick:
         own |= {"particle_spacing": 0.03, "until": 2.0, "probe_interval": 0.005}
-    return [run_task(_label(v), "hydrostatic-tank", v, "paper", **own) for v in VARIANTS]
+    return [run_with(v, _label(v), "hydrostatic-tank", **own) for v in VARIANTS]
 
 
 def _figures(dataset: xr.Dataset) -> dict[str, Any]:

@@ -1,33 +1,11 @@
-"""Studies: what a section is, and the variants of the boundary that sections compare."""
+"""The wall boundaries that the sections compare, and their runs."""
 
-import warnings
-from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
-import xarray as xr
+from sphframe.studies import RunTask, run_task, wall_boundary
 
-from sphframe.cases import CaseWarning, load_case
-from sphframe.studies.chapter import Chapter
-from sphframe.studies.series import Reference
-from sphframe.studies.tasks import RunTask, Task, wall_boundary
-
-__all__ = ["OURS", "PAPER", "Section", "Variant", "run_task"]
-
-
-class Section(NamedTuple):
-    """One section of the paper.
-
-    Attributes
-    ----------
-    name: on the command line.
-    tasks: from whether it is to be quick, the runs.
-    chapter: from the results by the tasks' labels, reference series and whether it was quick, what they show.
-    """
-
-    name: str
-    tasks: Callable[[bool], Sequence[Task]]
-    chapter: Callable[[Mapping[str, xr.Dataset], Reference, bool], Chapter]
+__all__ = ["OURS", "PAPER", "Variant", "run_with"]
 
 
 @dataclass(frozen=True)
@@ -74,9 +52,7 @@ OURS = (
 """beside them: the balanced lift, the classical Shepard method, and two boundaries of other codes"""
 
 
-def run_task(label: str, case: str, variant: Variant, preset: str | None, **parameters: Any) -> RunTask:
-    """Return the run of ``case`` with ``variant``; what the case warns of is what the paper does."""
-    chosen = {**wall_boundary(variant.interpolator, variant.lift), **parameters}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", CaseWarning)
-        return RunTask.of(label, load_case(case, preset, chosen))
+def run_with(variant: Variant, label: str, case: str, **parameters: Any) -> RunTask:
+    """Return the run of ``case``, preset ``paper``, with ``variant`` as its wall boundary."""
+    boundary = wall_boundary(variant.interpolator, variant.lift)
+    return run_task(label, case, "paper", **boundary, **parameters)

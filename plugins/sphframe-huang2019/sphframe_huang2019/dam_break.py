@@ -1,4 +1,4 @@
-"""Studies: the dam break, section 4.2 of the paper, Figs. 5 to 8."""
+"""The dam break, section 4.2 of the paper, Figs. 5 to 8."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -8,14 +8,28 @@ import numpy as np
 import xarray as xr
 from scipy.spatial import cKDTree
 
-from sphframe.analysis import particles_at, plot_run, pressure_scale, series_error, summary, time_scale
-from sphframe.analysis.drawing import draw_particles, draw_walls
-from sphframe.errors import InputError
-from sphframe.studies.chapter import Cell, Chapter, Claim, Picture, Table
-from sphframe.studies.drawing import colour, new_figure, picture, thinned, tidy
-from sphframe.studies.sections.section import OURS, PAPER, Section, Variant, run_task
-from sphframe.studies.series import Reference, ended, fallback_share, running_mean
-from sphframe.studies.tasks import Task
+from sphframe import InputError
+from sphframe.analysis import particles_at, plot_run, pressure_scale, running_mean, series_error, summary, time_scale
+from sphframe.studies import (
+    Cell,
+    Chapter,
+    Claim,
+    Picture,
+    Reference,
+    Section,
+    Table,
+    Task,
+    colour,
+    draw_particles,
+    draw_walls,
+    ended,
+    fallback_share,
+    new_figure,
+    picture,
+    thinned,
+    tidy,
+)
+from sphframe_huang2019.variants import OURS, PAPER, Variant, run_with
 
 __all__ = ["SECTION"]
 
@@ -58,8 +72,8 @@ def _tasks(quick: bool) -> list[Task]:
         "frame_interval": 0.05,
     }
     return [
-        *(run_task(_label(v), "dam-break", v, "paper", **own) for v in VARIANTS),
-        *(run_task(_surge_label(v), "dam-break", v, "paper", **surge) for v in (PAPER[0], BEST)),
+        *(run_with(v, _label(v), "dam-break", **own) for v in VARIANTS),
+        *(run_with(v, _surge_label(v), "dam-break", **surge) for v in (PAPER[0], BEST)),
     ]
 
 
