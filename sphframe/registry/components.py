@@ -142,7 +142,7 @@ def _check_api_version(entry: Entry, module_name: str, cause: BaseException | No
 
 
 def _check_interface(entry: Entry, component: Any, interface: type) -> None:
-    name = interface.__name__
+    name = f"studies.{interface.__name__}" if entry.kind == "studies" else interface.__name__
     if not (inspect.isclass(component) and issubclass(component, interface)):
         raise BrokenPluginError(
             f"{entry.label} is broken: {entry.value} is not a subclass of sphframe.{name} but"
