@@ -1,5 +1,6 @@
 """The study from end to end, with runs that stop after a few steps."""
 
+import csv
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -9,10 +10,21 @@ import pytest
 from sphframe_huang2019 import Huang2019
 
 from sphframe.registry import available, create
-from sphframe.studies import CostTask, Section, Study, Task, reproduce
+from sphframe.studies import CostTask, Section, Study, Task, Verdict, reproduce
 
 pytest.importorskip("distributed")
 
+FIGURES = {
+    "cost_scaling.svg", "cost_speed_up.svg", "dam_break_corner.png", "dam_break_ours.svg", "dam_break_paper.svg",
+    "dam_break_profile.svg", "dam_break_snapshots.png", "fixed_wall_ours.svg", "fixed_wall_paper.svg",
+    "fixed_wall_snapshots.png", "hydrostatic_ours.svg", "hydrostatic_paper.svg", "movable_wall.svg",
+    "movable_wall_snapshots.png", "surge_front.svg",
+}  # fmt: skip
+TABLES = {
+    "claims", "cost_interpolation", "cost_neighbours", "cost_particles", "cost_speed_up", "dam_break_p1",
+    "dam_break_p1_shifted", "dam_break_published", "dam_break_runs", "fixed_wall", "hydrostatic_tank",
+    "hydrostatic_tank_probes", "movable_wall", "surge_front",
+}  # fmt: skip
 SECTIONS = {section.name: section for section in Huang2019().sections()}
 
 
@@ -69,5 +81,13 @@ def test_the_tasks_of_a_section_differ_and_are_valid(name: str, quick: bool) -> 
 def test_the_report_has_every_figure_table_and_claim(cluster: str, tmp_path: Path) -> None:
     write_reference_series(tmp_path)
     report = reproduce(Shortened(), output=tmp_path, quick=True, reference=tmp_path, scheduler=cluster)
-    print(sorted(path.name for path in (tmp_path / "figures").iterdir()))
-    print(sorted(path.name for path in (tmp_path / "tables").iterdir()))
+    assert {path.name for path in (tmp_path / "figures").iterdir()} == FIGURES
+    assert {path.stem for path in (tmp_path / "tables").iterdir()} == TABLES
+    page = report.read_text()
+    assert page.count("<img") == len(FIGURES)
+    for title in ("Hydrostatic tank", "Dam break", "fixed wall", "movable wall", "Cost"):
+        assert title in page
+    with (tmp_path / "tables" / "claims.csv").open(newline="") as file:
+        claims = list(csv.DictReader(file))
+    assert len(claims) == 37
+    assert {claim["verdict"] for claim in claims} <= {verdict.value for verdict in Verdict}
