@@ -1,9 +1,10 @@
-"""Boundary: which wall answers for the ghosts in the corner between two walls.
+"""Boundary: the share of each wall in the forces on ghosts in the corner between two walls.
 
-The ghosts below a bed that runs on behind a paddle act on the fluid in front of the paddle, too. The component of
-their force along the paddle's normal is the paddle's: a paddle that ended at the bed would lack it, by the pressure on
-about half a particle spacing of its height. For walls at a right angle this makes both walls' forces exact in a uniform
-pressure. Corners within one wall need no such care, since only the sum of its ghosts' forces is known.
+The ghosts below a bed that continues behind a paddle also act on the fluid in front of the paddle. The component of
+their force along the paddle's normal belongs to the paddle: without it, the force on a paddle that ends at the bed is
+too small by the pressure on about half a particle spacing of its height. For walls at a right angle, both forces are
+then exact in a uniform pressure. Corners within one wall need no shares, since only the sum of its ghosts' forces is
+recorded.
 """
 
 from collections.abc import Sequence
@@ -21,7 +22,7 @@ Array = NDArray[np.float64]
 
 
 class _End(NamedTuple):
-    """Open end of a wall: where, the direction in which the wall would go on, and its normal out of the fluid."""
+    """Open end of a wall: its point, the direction of the wall's prolongation, and the normal out of the fluid."""
 
     wall: int
     point: Array

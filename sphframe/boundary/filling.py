@@ -1,4 +1,4 @@
-"""Boundary: the compiled loops that fill the ghosts from the fluid, with their scratch memory."""
+"""Boundary: fills the ghosts from the fluid by compiled loops, which need scratch memory."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -1,6 +1,6 @@
-"""Neighbours: how far particles near each other have moved apart, which is what wears out a list.
+"""Neighbours: a bound on the relative displacement of near particles, which decides when lists are rebuilt.
 
-Water that flows as one body leaves its neighbourhoods as they are, however fast it flows.
+Particles that move together stay each other's neighbours, however fast they move.
 """
 
 import math
@@ -15,13 +15,13 @@ __all__ = ["relative_displacement"]
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
 def relative_displacement(rows, reference, dim, origin, edge, shape, boxes):  # type: ignore[no-untyped-def]
-    """Return a bound, m, on how far any two of the particles have moved relative to each other that lay less than
-    ``edge`` apart at ``reference`` (n, dim).
+    """Return a bound, m, on the relative displacement of any two particles that were less than ``edge`` apart.
 
-    It is the largest diagonal of the boxes around the displacements in each cube of side ``edge`` with those around it.
-    ``shape`` (3,) counts the cubes from ``origin`` (dim,) on, with one more on all sides. ``boxes`` (parts, cubes, 6)
-    is scratch: the least displacements of the particles of each part, and the least of their negatives; the result does
-    not depend on the number of parts.
+    Displacements are measured from ``reference`` (n, dim). Space is divided into cubes of side ``edge``; the bound is
+    the largest diagonal of the box that holds the displacements in a cube and in the cubes around it.
+    ``shape`` (3,) is the number of cubes from ``origin`` (dim,) on, with one more on all sides. ``boxes`` (parts,
+    cubes, 6) is scratch: the smallest displacements of the particles of each part, and the smallest of their negatives.
+    The result does not depend on the number of parts.
     """
     n = reference.shape[0]
     parts = boxes.shape[0]
@@ -36,7 +36,7 @@ def relative_displacement(rows, reference, dim, origin, edge, shape, boxes):  # 
             cube = 0
             for k in range(dim):
                 cube = cube * shape[k] + int((reference[i, k] - origin[k]) * scale) + 1
-            if np.uint64(cube) != last:  # most particles lie in the cube of the one before
+            if np.uint64(cube) != last:  # most particles lie in the cube of the previous particle
                 for q in range(6):
                     box[last, q] = least[q]
                 last = np.uint64(cube)
@@ -52,14 +52,14 @@ def relative_displacement(rows, reference, dim, origin, edge, shape, boxes):  # 
     layer = shape[1] * row if dim == 3 else 0
     largest = 0.0
     for cube in numba.prange(boxes.shape[1]):
-        inhabited = False
+        occupied = False
         for part in range(parts):
-            inhabited = inhabited or boxes[part, cube, 0] < math.inf
-        if not inhabited:
+            occupied = occupied or boxes[part, cube, 0] < math.inf
+        if not occupied:
             continue
         least = local_array(6)
         least[:] = math.inf
-        for a in range(2 if dim == 3 else 1):  # a pair of cubes is met from one of the two
+        for a in range(2 if dim == 3 else 1):  # each pair of cubes is visited once, from one of the two
             for b in range(-1 if dim == 3 else 0, 2):
                 for near in range(np.uint64(cube + a * layer + b * row - 1), np.uint64(cube + a * layer + b * row + 2)):
                     for part in range(parts):

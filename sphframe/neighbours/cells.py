@@ -1,9 +1,9 @@
 """Neighbours: a grid of cells and the order of particles along it.
 
-Cells are numbered along the last axis, row after row, every other row backwards: consecutive cells touch, and so do
-particles sorted by cell. The cells of one row that a box overlaps are always one range of numbers. A row is as wide as
-the cluster of particles that is to share a neighbour list, its cells are half as long: so consecutive particles
-fill a cube, and not a streak.
+Cells are numbered along the last axis, row after row, every other row backwards: consecutive cells are adjacent, and
+consecutive particles sorted by cell are close together. The cells of one row that a box overlaps are always one range
+of numbers. A row is as wide as the cluster of particles that shares a neighbour list, and its cells are half as long,
+so that consecutive particles fill a cube and not a long strip.
 """
 
 import math

@@ -1,11 +1,13 @@
-"""Neighbours: lists of all particles within the search radius, good until two may have approached by the skin.
+"""Neighbours: Verlet lists of all particles within the search radius of a cluster of particles.
 
-A list serves a cluster of consecutive particles, which touch each other since particles are kept in spatial order: it
-holds whatever is within the search radius of the box around them, first fluid particles and then ghosts. A pair loop
-reads each neighbour once for all members of the cluster: that costs less than the pairs too many, which lie beyond the
-kernel support and get no weight. The search radius is the kernel support plus
-the skin, so the lists stay complete while no two particles have approached each other by more than the skin: while
-nothing has moved further than that against the walls, and no two particles near each other against one another.
+A list belongs to a cluster of consecutive particles, which are close together because particles are kept in spatial
+order. It holds all particles within the search radius of the box around the cluster, first fluid particles and then
+ghosts. A pair loop reads each neighbour once for all members of the cluster. This costs less than the additional pairs,
+which are beyond the kernel support and have no weight.
+
+The search radius is the kernel support plus the skin, so the lists are complete while no two particles have approached
+each other by more than the skin: while no particle has moved by more than that relative to the walls, and no two near
+particles relative to each other.
 """
 
 import math
@@ -24,15 +26,15 @@ __all__ = ["NeighbourLists"]
 Array = NDArray[np.float64]
 
 _PARTS = 2
-"""of the rows that are sorted, or looked at, at the same time"""
+"""number of parts in which rows are sorted and measured in parallel"""
 _NO_ORDER = np.zeros(0, np.int64)
-"""for rows that are sorted by cell"""
+"""stands for the order of rows that are sorted by cell"""
 
 
 class NeighbourLists:
     """Neighbour lists of the fluid particles and of the boundary's evaluation points.
 
-    They hold the positions from which they were built, and so know how long they remain valid.
+    They keep the positions from which they were built, and decide from them how long they remain valid.
 
     Attributes
     ----------
@@ -95,7 +97,9 @@ class NeighbourLists:
     def sort(self, rows: Array) -> NDArray[np.int64]:
         """Make the grid around the fluid ``rows`` (n, width) and return the order in which the rows must be put."""
         bounding_box(rows, self.fluid_count, self.dim, self._lower, self._upper)
-        self._grid = grid_around(self._lower, self._upper, self.width, 1.1 * self.radius)  # with all ghosts that matter
+        self._grid = grid_around(
+            self._lower, self._upper, self.width, 1.1 * self.radius
+        )  # includes all ghosts within reach
         if self._tallies.shape[1] != self._grid.count:
             self._tallies = np.zeros((_PARTS, self._grid.count), np.int64)
             self._starts = np.zeros(self._grid.count + 1, np.int64)
@@ -152,7 +156,7 @@ class NeighbourLists:
         return self._relative_displacement(rows) + 2.0 * ahead <= self.skin
 
     def _relative_displacement(self, rows: Array) -> float:
-        edge = self.radius + self.skin  # what lay further apart cannot have come within the support
+        edge = self.radius + self.skin  # particles that were further apart cannot have come within the support
         shape = np.ones(3, np.int64)
         shape[: self.dim] = np.floor((self._upper - self._lower) / edge) + 3
         cubes = int(shape.prod())

@@ -24,13 +24,13 @@ __all__ = ["Tolerated", "check_state", "check_time_step", "check_traits"]
 Array = NDArray[np.float64]
 
 COLLAPSED = 0.02
-"""an adaptive time step below this part of that at rest, a speed of 50 c0, has collapsed"""
+"""lowest adaptive time step over that at rest; below it, at speeds above 50 c0, the time step has collapsed"""
 _ROUND_OFF = 1e-8
 _STEP_IS_TOO_LONG = "a time step above the stability limit (set a smaller courant_number or time_step)"
 
 
 class Tolerated(NamedTuple):
-    """What a check found wrong with the fluid, and the case tolerates."""
+    """Faults of the fluid that the case tolerates."""
 
     outside: NDArray[np.bool_] | None
     """(n,) particles that have left the domain and are to be removed"""
@@ -122,7 +122,7 @@ def _check_fallbacks(boundary: Boundary, case: Case) -> None:
 
 
 def check_time_step(step: float, at_rest: float, speed: float) -> None:
-    """Stop where the adaptive time ``step`` (s) has collapsed against that ``at_rest``, at the largest ``speed``."""
+    """Raise an error if the adaptive time ``step`` (s) at the largest ``speed`` has collapsed from that ``at_rest``."""
     if step < COLLAPSED * at_rest:
         raise SimulationError(
             f"the time step has collapsed to {step:.3g} s, from {at_rest:.3g} s at rest, for a speed of"
@@ -162,10 +162,13 @@ def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator, kernel
     wet = statuses != int(Status.DRY)
     for wrong, what in (
         (~np.isfinite(sums), "weights that are not finite"),
-        (traits.non_negative & (lowest < -_ROUND_OFF * size), "negative weights, which its traits rule out,"),
+        (
+            traits.non_negative & (lowest < -_ROUND_OFF * size),
+            "negative weights, against its traits,",
+        ),
         (
             traits.partition_of_unity & wet & (np.abs(sums - 1.0) > 1e-6 * np.maximum(1.0, size)),
-            "weights that do not add up to one, which its traits promise,",
+            "weights that do not add up to one, against its traits,",
         ),
     ):
         if np.any(wrong):

@@ -1,4 +1,4 @@
-"""Simulation: Ctrl-C and SIGTERM wait for the end of the step, so that a run ends with a state that can be saved."""
+"""Simulation: Ctrl-C and SIGTERM take effect at the end of a step, where the state can be saved."""
 
 import signal
 import threading
@@ -16,23 +16,23 @@ class Interruption:
         self._asked = False
 
     def ask(self, number: int, frame: Any) -> None:
-        """Handle a signal: remember the first, let the second interrupt at once."""
+        """Handle a signal: record the first; the second interrupts at once."""
         if self._asked:
             raise KeyboardInterrupt
         self._asked = True
 
     def raise_if_asked(self) -> None:
-        """Raise KeyboardInterrupt if a signal has come."""
+        """Raise KeyboardInterrupt if a signal has arrived."""
         if self._asked:
             raise KeyboardInterrupt
 
 
 @contextmanager
 def deferred_interruption() -> Iterator[Interruption]:
-    """Let SIGINT and SIGTERM wait until :meth:`Interruption.raise_if_asked` is called.
+    """Defer SIGINT and SIGTERM until :meth:`Interruption.raise_if_asked` is called.
 
-    A second signal interrupts at once. Handlers that somebody has set are left alone, and so is everything outside the
-    main thread, where Python allows no handler.
+    A second signal interrupts at once. Signals that already have a handler are not deferred. Outside the main thread,
+    where Python allows no handlers, nothing is deferred.
     """
     interruption = Interruption()
     before = {}

@@ -15,7 +15,7 @@ __all__ = ["naming_component", "naming_hook"]
 
 @contextmanager
 def naming_component(case: Case, *, running: bool) -> Iterator[None]:
-    """Turn what a component of the case raises, or fails to compile with, into an error that names it.
+    """Replace an exception of a component of the case, or of its compilation, by an error that names the component.
 
     Raises
     ------
@@ -44,11 +44,11 @@ def naming_component(case: Case, *, running: bool) -> Iterator[None]:
 
 @contextmanager
 def naming_hook() -> Iterator[None]:
-    """Turn what an installed hook plugin raises into an error that names it.
+    """Replace an exception of an installed hook plugin by an error that names the plugin.
 
     Raises
     ------
-    SimulationError: in its place.
+    SimulationError: in place of that exception.
     """
     try:
         yield
@@ -73,7 +73,7 @@ def _passed_through(error: BaseException, entry: Entry) -> bool:
 
 
 def _shortened(error: BaseException) -> str:
-    """The first line of a message, and of a compiler's those that say what and where."""
+    """Return the first line of a message, and the lines of a compiler's message that say what failed and where."""
     first, *rest = [line.strip() for line in str(error).splitlines() if line.strip()] or [""]
     telling = [line for line in rest if line.startswith(("NameError", "Unknown", "No implementation", "File"))]
     return "; ".join([first, *telling[:3]])

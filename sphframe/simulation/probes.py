@@ -1,4 +1,4 @@
-"""Simulation: where the fluid is sampled for probes and gauges."""
+"""Simulation: pressure probes and free-surface gauges, and the points at which they sample the fluid."""
 
 from collections.abc import Sequence
 
@@ -19,8 +19,8 @@ class PressureProbes:
     """Pressure sensors: points, and discs that average over the chord at each height.
 
     A disc of radius a centred on a wall averages max(p(s), 0) over its diameter with the chord length as weight,
-    (2 / (pi a^2)) int max(p(s), 0) sqrt(a^2 - s^2) ds, s along the wall. It is an instrument in the wall, from which
-    water parts instead of pulling, as from the ghosts; a point shows the tension that the particles have.
+    (2 / (pi a^2)) int max(p(s), 0) sqrt(a^2 - s^2) ds, s along the wall. Negative pressures are clipped to zero, as
+    those of the ghosts are: water separates from an instrument in the wall. At a point, they are not clipped.
     """
 
     def __init__(self, probes: Sequence[Probe], dim: int) -> None:
@@ -49,7 +49,7 @@ class PressureProbes:
                 self._lowest[column] = 0.0
 
     def average(self, pressures: Array) -> Array:
-        """Pressures (points,) -> one value a probe."""
+        """Return one value per probe from ``pressures`` (points,), Pa."""
         averages: Array = self._average @ np.maximum(pressures, self._lowest)
         return averages
 
@@ -74,7 +74,7 @@ class Gauges:
         self._count = len(gauges)
 
     def elevations(self, fillings: Array) -> Array:
-        """Fillings (points,) -> elevation of each gauge, m; NaN where dry."""
+        """Return the elevation at each gauge, m, NaN where dry, from ``fillings`` (points,)."""
         elevations = np.full(self._count, np.nan)
         for index, filling in enumerate(fillings.reshape(self._count, -1) if self._count else []):
             wet = np.flatnonzero(filling >= 0.5)

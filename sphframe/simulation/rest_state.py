@@ -1,4 +1,4 @@
-"""Simulation: the compressible rest state, from which a case starts unless it says otherwise."""
+"""Simulation: the compressible rest state, the default initial state of a case."""
 
 from typing import Any
 
@@ -11,7 +11,7 @@ Array = NDArray[np.float64]
 
 
 def rest_pressure(depth: Array, density: Any, reference_density: float, sound_speed: float, gravity: float) -> Array:
-    """Pressure (Pa) at ``depth`` (m) below the surface at rest, from dp/ddepth = rho(p) g and p(0) = 0.
+    """Return the pressure (Pa) at ``depth`` (m) below the surface at rest, from dp/ddepth = rho(p) g and p(0) = 0.
 
     For the linear equation of state this is rho0 c0^2 (exp(g depth / c0^2) - 1). ``density`` is the inverse equation
     of state, rho(p, rho0, c0). Above the surface the pressure is zero.
@@ -19,7 +19,7 @@ def rest_pressure(depth: Array, density: Any, reference_density: float, sound_sp
     deepest = float(np.max(depth, initial=0.0))
     if deepest <= 0.0 or gravity == 0.0:
         return np.zeros_like(depth)
-    from scipy.integrate import solve_ivp  # most cases bring their initial pressure: it need not be loaded
+    from scipy.integrate import solve_ivp  # slow to import, and not needed by cases that give their initial pressure
 
     solution = solve_ivp(
         lambda _, p: [density(p[0], reference_density, sound_speed) * gravity],

@@ -170,7 +170,7 @@ BAD_METHODS: list[tuple[str, str, str, type[Exception], str]] = [
         "",
         "out[0] -= 0.5; out[n - 1] += 0.5",
         SimulationError,
-        r"'bad' of bad-method 1.0 returned negative weights, which its traits rule out.*sphframe verify bad",
+        r"'bad' of bad-method 1.0 returned negative weights, against its traits.*sphframe verify bad",
     ),
     ("no partition of unity", "", "out[0] += 0.1", SimulationError, "weights that do not add up to one"),
     ("does not compile", "", "out[0] = 'a' + n", PluginError, "'bad' of bad-method 1.0 does not compile: TypingError"),
