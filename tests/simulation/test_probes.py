@@ -18,6 +18,6 @@ def test_a_disc_averages_over_its_area():
     assert average[1] == pytest.approx(100.75)
 
 
-def test_a_disc_reads_no_tension_and_a_point_does():
+def test_negative_pressures_are_clipped_to_zero_at_a_disc_and_not_at_a_point():
     probes = PressureProbes([DISC, Probe(name="point", position=(0.5, 0.5))], 2)
     assert list(probes.average(np.full(len(probes.points), -5.0))) == [0.0, -5.0]

@@ -120,7 +120,7 @@ def test_fields_keep_the_original_order():
     np.testing.assert_array_equal(simulation.fields().position, before)
 
 
-def test_steps_do_not_depend_on_who_looks():
+def test_reading_a_simulation_changes_no_step():
     one, other = Simulation(tank()), Simulation(tank())
     for _ in range(20):
         one.advance()
