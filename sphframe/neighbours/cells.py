@@ -7,7 +7,7 @@ so that consecutive particles fill a cube and not a long strip.
 """
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numba
 import numpy as np
@@ -18,8 +18,7 @@ __all__ = ["Grid", "bounding_box", "cell_number", "grid_around", "put_in_order",
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Grid:
+class Grid(NamedTuple):
     """A grid of cells: ``origin`` (3,) of cell (0, 0, 0), edges ``cell`` (3,) in m, ``shape`` (3,) cells per axis.
 
     In 2-D the first axis has one cell, so that x and y are the second and third axis of one source.
@@ -27,12 +26,12 @@ class Grid:
 
     origin: Array
     cell: Array
-    shape: tuple[int, int, int]
+    shape: NDArray[np.int64]
 
     @property
-    def count(self) -> int:
+    def size(self) -> int:
         """Number of cells."""
-        return self.shape[0] * self.shape[1] * self.shape[2]
+        return int(self.shape.prod())
 
 
 def grid_around(lower: Array, upper: Array, width: float, margin: float) -> Grid:
@@ -41,12 +40,12 @@ def grid_around(lower: Array, upper: Array, width: float, margin: float) -> Grid
     dim = len(lower)
     origin = np.zeros(3)
     cell = np.array([width, width, 0.5 * width])
-    shape = [1, 1, 1]
+    shape = np.ones(3, np.int64)
     for k in range(dim):
         axis = 3 - dim + k
         origin[axis] = lower[k] - margin - 0.001 * width  # round-off must not put the lowest particle outside
         shape[axis] = math.floor((upper[k] + margin - origin[axis]) / cell[axis]) + 1
-    return Grid(origin, cell, (shape[0], shape[1], shape[2]))
+    return Grid(origin, cell, shape)
 
 
 @numba.njit(inline="always")
@@ -81,7 +80,7 @@ def bounding_box(rows, count, dim, lower, upper):  # type: ignore[no-untyped-def
 
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
-def sort_by_cell(rows, dim, origin, cell, shape, cells, tallies, starts, order):  # type: ignore[no-untyped-def]
+def sort_by_cell(rows, dim, grid, cells, tallies, starts, order):  # type: ignore[no-untyped-def]
     """Sort rows by cell, keeping the order within one: ``order[starts[c]:starts[c + 1]]`` are the members of cell c.
 
     The rows are counted, and put in their places, in as many parts as ``tallies`` (parts, cells) has; the result does
@@ -98,8 +97,8 @@ def sort_by_cell(rows, dim, origin, cell, shape, cells, tallies, starts, order):
             a = b = c = 0
             for k in range(dim):
                 axis = 3 - dim + k
-                offset = (rows[i, k] - origin[axis]) / cell[axis]
-                if not (offset >= 0.0 and offset < shape[axis]):
+                offset = (rows[i, k] - grid.origin[axis]) / grid.cell[axis]
+                if not (offset >= 0.0 and offset < grid.shape[axis]):
                     inside = False
                     break
                 index = int(offset)
@@ -109,7 +108,7 @@ def sort_by_cell(rows, dim, origin, cell, shape, cells, tallies, starts, order):
                     b = index
                 else:
                     c = index
-            cells[i] = cell_number(shape, row_number(shape, a, b), c) if inside else -1
+            cells[i] = cell_number(grid.shape, row_number(grid.shape, a, b), c) if inside else -1
             if inside:
                 tally[cells[i]] += 1
     total = 0

@@ -72,7 +72,7 @@ class NeighbourLists:
         self._fluid_reference = np.zeros((fluid_count, dim))
         self._ghost_reference = np.zeros((ghost_count, dim))
         self._point_reference = np.zeros((ghost_count, dim))
-        self._grid = Grid(np.zeros(3), np.ones(3), (1, 1, 1))
+        self._grid = Grid(np.zeros(3), np.ones(3), np.ones(3, np.int64))
         self._starts = np.zeros(2, np.int64)
         self._cells = np.zeros(fluid_count, np.int64)
         self._order = np.zeros(fluid_count, np.int64)
@@ -100,26 +100,21 @@ class NeighbourLists:
         self._grid = grid_around(
             self._lower, self._upper, self.width, 1.1 * self.radius
         )  # includes all ghosts within reach
-        if self._tallies.shape[1] != self._grid.count:
-            self._tallies = np.zeros((_PARTS, self._grid.count), np.int64)
-            self._starts = np.zeros(self._grid.count + 1, np.int64)
-            self._ghost_starts = np.zeros(self._grid.count + 1, np.int64)
-        self._sort(rows, self._cells, self._starts, self._order)
+        if self._tallies.shape[1] != self._grid.size:
+            self._tallies = np.zeros((_PARTS, self._grid.size), np.int64)
+            self._starts = np.zeros(self._grid.size + 1, np.int64)
+            self._ghost_starts = np.zeros(self._grid.size + 1, np.int64)
+        sort_by_cell(rows, self.dim, self._grid, self._cells, self._tallies, self._starts, self._order)
         return self._order
-
-    def _sort(self, rows: Array, cells: NDArray[np.int64], starts: NDArray[np.int64], order: NDArray[np.int64]) -> None:
-        grid = self._grid
-        sort_by_cell(rows, self.dim, grid.origin, grid.cell, grid.shape, cells, self._tallies, starts, order)
 
     def build(self, rows: Array, evaluation_points: Array) -> None:
         """Build the lists for ``rows`` (n + g, width), whose fluid part is in the order that :meth:`sort` returned."""
         grid, n = self._grid, self.fluid_count
-        self._sort(rows[n:], self._ghost_cells, self._ghost_starts, self._ghost_order)
+        sort_by_cell(rows[n:], self.dim, grid, self._ghost_cells, self._tallies, self._ghost_starts, self._ghost_order)
         while True:
             longest = _list_particles(
-                rows, n, self.cluster, self.dim, self.radius, grid.origin, grid.cell, grid.shape,
-                self._starts, _NO_ORDER, self._ghost_starts, self._ghost_order,
-                self.fluid, self.fluid_counts, self.ghost_counts,
+                rows, n, self.cluster, self.dim, self.radius, grid, self._starts, _NO_ORDER,
+                self._ghost_starts, self._ghost_order, self.fluid, self.fluid_counts, self.ghost_counts,
             )  # fmt: skip
             if longest < self.fluid.shape[1]:
                 break
@@ -189,12 +184,10 @@ class NeighbourLists:
         self, points: Array, rows: Array, lists: NDArray[np.uint32], counts: NDArray[np.uint32]
     ) -> NDArray[np.uint32]:
         """List the fluid near ``points`` in ``lists``, or in a longer array where that is too short."""
-        grid = self._grid
         while True:
             longest = _list_points(
-                points, rows, self.dim, self.radius, grid.origin, grid.cell, grid.shape,
-                self._starts, _NO_ORDER, lists, counts,
-            )  # fmt: skip
+                points, rows, self.dim, self.radius, self._grid, self._starts, _NO_ORDER, lists, counts
+            )
             if longest < lists.shape[1]:
                 return lists
             lists = np.empty((len(points), _capacity(longest)), np.uint32)
@@ -223,10 +216,10 @@ def _gap(x, lower, upper):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(inline="always")
-def _box_distance2(rows, j, dim, x0, x1, y0, y1, z0, z1):  # type: ignore[no-untyped-def]
+def _box_distance2(rows, j, dim, box):  # type: ignore[no-untyped-def]
     """Return the squared distance of row ``j`` from a box; an unsigned ``j`` needs no check for negative numbers."""
-    d2 = _gap(rows[j, 0], x0, x1) ** 2 + _gap(rows[j, 1], y0, y1) ** 2
-    return d2 + _gap(rows[j, 2], z0, z1) ** 2 if dim == 3 else d2
+    d2 = _gap(rows[j, 0], box[0], box[1]) ** 2 + _gap(rows[j, 1], box[2], box[3]) ** 2
+    return d2 + _gap(rows[j, 2], box[4], box[5]) ** 2 if dim == 3 else d2
 
 
 @numba.njit(inline="always")
@@ -264,15 +257,15 @@ def _select(rows, members, begin, end, first, last, dim, limit):  # type: ignore
     return kept
 
 
-@numba.njit(error_model="numpy")
-def _collect(  # type: ignore[no-untyped-def]
-    rows, dim, x0, x1, y0, y1, z0, z1, radius, origin, cell, shape, starts, order, first, members, found
-):
-    """List in ``members``, from place ``found`` on, what is within ``radius`` of the box ``x0`` .. ``z1``.
+@numba.njit(error_model="numpy", forceinline=True)
+def _collect(rows, dim, box, radius, grid, starts, order, first, members, found):  # type: ignore[no-untyped-def]
+    """List in ``members``, from place ``found`` on, the rows within ``radius`` of ``box`` (x0, x1, y0, y1, z0, z1).
 
     The members of cell c are the rows ``first + order[starts[c]:starts[c + 1]]``, or ``starts[c]`` .. ``starts[c + 1]``
     themselves where ``order`` is empty. Returns the number of members; those without room are counted only.
     """
+    x0, x1, y0, y1, z0, z1 = box
+    origin, cell, shape = grid.origin, grid.cell, grid.shape
     reach = radius * (1.0 + 1e-9)
     limit = radius * radius
     room = members.shape[0] - 1  # the last place is scratch
@@ -299,20 +292,19 @@ def _collect(  # type: ignore[no-untyped-def]
             if order.shape[0] == 0:
                 for j in range(begin, end):
                     members[min(found, room)] = j  # stays only if it is near, without a branch that is hard to predict
-                    found += 1 if _box_distance2(rows, j, dim, x0, x1, y0, y1, z0, z1) < limit else 0
+                    found += 1 if _box_distance2(rows, j, dim, box) < limit else 0
             else:
                 for k in range(begin, end):
-                    row_of_k = np.uint64(order[k]) + np.uint64(first)
-                    members[min(found, room)] = row_of_k
-                    found += 1 if _box_distance2(rows, row_of_k, dim, x0, x1, y0, y1, z0, z1) < limit else 0
+                    ordered = np.uint64(order[k]) + np.uint64(first)
+                    members[min(found, room)] = ordered
+                    found += 1 if _box_distance2(rows, ordered, dim, box) < limit else 0
     return found
 
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
 def _list_particles(  # type: ignore[no-untyped-def]
-    rows, n, cluster, dim, radius, origin, cell, shape, starts, no_order, ghost_starts, ghost_order,
-    lists, counts, ghost_counts,
-):  # fmt: skip
+    rows, n, cluster, dim, radius, grid, starts, no_order, ghost_starts, ghost_order, lists, counts, ghost_counts
+):
     """List the neighbours of each cluster; returns the longest list, which must stay below the capacity."""
     limit = radius * radius
     room = lists.shape[1] - 1
@@ -330,19 +322,15 @@ def _list_particles(  # type: ignore[no-untyped-def]
             y1 = max(y1, rows[i, 1])
             z0 = min(z0, rows[i, dim - 1])
             z1 = max(z1, rows[i, dim - 1])
-        alone = last - first == 1
-        wide = max(max(x1 - x0, y1 - y0), z1 - z0) > 1.5 * radius
+        box = (x0, x1, y0, y1, z0, z1)
+        selected = last - first == 1 or max(x1 - x0, y1 - y0, z1 - z0) > 1.5 * radius
         members = lists[c]
-        found = _collect(
-            rows, dim, x0, x1, y0, y1, z0, z1, radius, origin, cell, shape, starts, no_order, 0, members, 0
-        )  # fmt: skip
-        if (wide or alone) and found <= room:
+        found = _collect(rows, dim, box, radius, grid, starts, no_order, 0, members, 0)
+        if selected and found <= room:
             found = _select(rows, members, 0, found, first, last, dim, limit)
         counts[c] = found
-        found = _collect(
-            rows, dim, x0, x1, y0, y1, z0, z1, radius, origin, cell, shape, ghost_starts, ghost_order, n, members, found
-        )  # fmt: skip
-        if (wide or alone) and found <= room:
+        found = _collect(rows, dim, box, radius, grid, ghost_starts, ghost_order, n, members, found)
+        if selected and found <= room:
             found = _select(rows, members, counts[c], found, first, last, dim, limit)
         ghost_counts[c] = found - counts[c]
         longest = max(longest, found)
@@ -350,15 +338,11 @@ def _list_particles(  # type: ignore[no-untyped-def]
 
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
-def _list_points(points, rows, dim, radius, origin, cell, shape, starts, no_order, lists, counts):  # type: ignore[no-untyped-def]
+def _list_points(points, rows, dim, radius, grid, starts, no_order, lists, counts):  # type: ignore[no-untyped-def]
     """List the fluid neighbours of each point; returns the longest list, which must stay below the capacity."""
     longest = 0
     for i in numba.prange(points.shape[0]):
-        x = points[i, 0]
-        y = points[i, 1]
-        z = points[i, dim - 1]
-        counts[i] = _collect(
-            rows, dim, x, x, y, y, z, z, radius, origin, cell, shape, starts, no_order, 0, lists[i], 0
-        )  # fmt: skip
+        x, y, z = points[i, 0], points[i, 1], points[i, dim - 1]
+        counts[i] = _collect(rows, dim, (x, x, y, y, z, z), radius, grid, starts, no_order, 0, lists[i], 0)
         longest = max(longest, counts[i])
     return longest
