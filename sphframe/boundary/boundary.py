@@ -1,18 +1,14 @@
 """Boundary: the ghosts of all walls at the present time."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sphframe.boundary.corners import Corners
-from sphframe.boundary.filling import Filling
 from sphframe.boundary.movement import move_ghosts
 from sphframe.geometry import BoxWall, PolygonWall, wall_ghosts
-from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint, Motion, RigidBody, Status
-from sphframe.neighbours import NeighbourLists
-from sphframe.physics import LoopParameters
+from sphframe.interfaces import EvaluationPoint, Motion, RigidBody, Status
 
 __all__ = ["Boundary"]
 
@@ -39,15 +35,11 @@ class Boundary:
         self,
         walls: Sequence[PolygonWall | BoxWall],
         bodies: Mapping[str, RigidBody],
-        interpolator: BoundaryInterpolator,
-        kernel: CompiledKernel,
-        parts: Mapping[str, Any],
+        evaluation_point: EvaluationPoint,
         *,
         spacing: float,
         support: float,
         no_slip: bool,
-        balanced: bool,
-        corrected: bool,
     ) -> None:
         drawn = wall_ghosts(tuple(walls), spacing, int(np.ceil(support / spacing - 1e-9)))
         self.dim = drawn.position.shape[1]
@@ -65,14 +57,12 @@ class Boundary:
         self.position = drawn.position.copy()
         self.mirror = drawn.mirror.copy()
         self.reflection = self._drawn_reflection.copy()
-        at_ghost = interpolator.traits.evaluation_point is EvaluationPoint.GHOST
-        self.points = self.position if at_ghost else self.mirror
+        self.points = self.position if evaluation_point is EvaluationPoint.GHOST else self.mirror
         self.lifts = self.position - self.points
         self.velocity = np.zeros_like(self.position)
         self.acceleration = np.zeros_like(self.position)
         self.driving = np.zeros_like(self.position)
         self.statuses = np.full(self.count, int(Status.DRY), np.int64)
-        self._filling = Filling(interpolator, kernel, parts, balanced=balanced, corrected=corrected)
 
     @property
     def count(self) -> int:
@@ -103,18 +93,6 @@ class Boundary:
         np.multiply(self.acceleration, -density, out=self.driving)
         self.driving += driving_force
         rows[:, : self.dim] = self.position
-
-    def fill(
-        self,
-        rows: Array,
-        lists: NeighbourLists,
-        parameters: LoopParameters,
-    ) -> None:
-        """Interpolate the fluid to the evaluation points and assign the ghosts' velocity, pressure and density."""
-        self._filling(
-            rows, lists, self.points, self.lifts, self.reflection, self.velocity, self.driving, self.statuses,
-            parameters,
-        )  # fmt: skip
 
     def corner_shares(self, motions: Sequence[Motion]) -> tuple[NDArray[np.int64], Array]:
         """Other wall (g,) that takes part of each ghost's force, or -1, and its normal (g, dim)."""

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.conjugate import make_conjugate
 from sphframe.boundary.ghosts import Scratch, fill_ghosts
 from sphframe.compiled import specialise
@@ -54,26 +55,16 @@ class Filling:
         self._make_conjugate = specialise(make_conjugate, parts) if conjugate else None
         self._scratch = Scratch.of(8, self._dim)
 
-    def __call__(
-        self,
-        rows: Array,
-        lists: NeighbourLists,
-        points: Array,
-        lifts: Array,
-        reflection: Array,
-        wall_velocity: Array,
-        driving: Array,
-        statuses: NDArray[np.int64],
-        parameters: LoopParameters,
-    ) -> None:
-        """Fill the ghosts in ``rows``, and their ``statuses`` (g,); shapes as in :class:`Boundary`."""
+    def __call__(self, rows: Array, lists: NeighbourLists, boundary: Boundary, parameters: LoopParameters) -> None:
+        """Fill the ghosts of ``boundary`` in ``rows`` (n + g, width), and set their statuses."""
         if lists.points.shape[1] > self._scratch.members.shape[1]:
             self._scratch = Scratch.of(lists.points.shape[1], self._dim)
         self._fill(
-            rows, lists.fluid_count, lists.points, lists.point_counts, points, lifts, reflection,
-            wall_velocity, driving, parameters, self._scratch, statuses,
+            rows, lists.fluid_count, lists.points, lists.point_counts, boundary.points, boundary.lifts,
+            boundary.reflection, boundary.velocity, boundary.driving, parameters, self._scratch, boundary.statuses,
         )  # fmt: skip
         if self._make_conjugate is not None:
             self._make_conjugate(
-                rows, lists.fluid_count, lists.points, lists.point_counts, reflection, wall_velocity, parameters
-            )
+                rows, lists.fluid_count, lists.points, lists.point_counts, boundary.reflection, boundary.velocity,
+                parameters,
+            )  # fmt: skip

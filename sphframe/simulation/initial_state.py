@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sphframe.boundary.boundary import Boundary
+from sphframe.boundary.filling import Filling
 from sphframe.cases import Case, Scene
 from sphframe.compiled import LANES, specialise
 from sphframe.errors import InputError
@@ -50,12 +51,15 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     boundary = Boundary(
         scene.walls,
         scene.bodies,
-        components.interpolator,
-        components.compiled_kernel,
-        components.parts,
+        components.interpolator.traits.evaluation_point,
         spacing=spacing,
         support=parameters.support,
         no_slip=case.slip == "no",
+    )
+    filling = Filling(
+        components.interpolator,
+        components.compiled_kernel,
+        components.parts,
         balanced=case.hydrostatic_lift == "balanced",
         corrected=case.ghost_velocity == "corrected",
     )
@@ -77,7 +81,7 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
             depth, density, parameters.reference_density, parameters.sound_speed, parameters.gravity
         )
     rows = _initial_rows(position, volumes, pressure, boundary.position, spacing, components, parameters)
-    system = FluidSystem(rows, boundary, lists, components.parts, parameters)
+    system = FluidSystem(rows, boundary, filling, lists, components.parts, parameters)
     system.move_walls(0.0)
     system.find_neighbours()
     system.evaluate(0.0)

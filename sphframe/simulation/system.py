@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.contact import put_back
+from sphframe.boundary.filling import Filling
 from sphframe.compiled import specialise
 from sphframe.interfaces import System
 from sphframe.neighbours import LargestMotion, NeighbourLists, put_in_order
@@ -47,12 +48,14 @@ class FluidSystem(System):
         self,
         rows: Array,
         boundary: Boundary,
+        filling: Filling,
         lists: NeighbourLists,
         parts: Mapping[str, Any],
         parameters: LoopParameters,
     ) -> None:
         dim = boundary.dim
         self.boundary = boundary
+        self._filling = filling
         self.parameters = parameters
         self.columns = Columns.of(dim)
         self.bodies = BodyStates(boundary.bodies)
@@ -145,7 +148,7 @@ class FluidSystem(System):
 
     def fill_ghosts(self) -> None:
         """Mirror, interpolate, assign."""
-        self.boundary.fill(self.rows, self.lists, self.parameters)
+        self._filling(self.rows, self.lists, self.boundary, self.parameters)
 
     def _sum(self, sums: Any) -> None:
         lists = self.lists

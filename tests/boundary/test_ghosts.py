@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from sphframe.boundary.boundary import Boundary
+from sphframe.boundary.filling import Filling
 from sphframe.equations_of_state.linear import Linear
 from sphframe.geometry import BoxRegion, BoxWall, lattice
 from sphframe.interfaces import Motion, RigidBody, Status
@@ -42,18 +43,17 @@ class Basin:
         wall = BoxWall(
             lower=(0.0,) * dim, upper=(side,) * dim, open_faces=("+y" if dim == 2 else "+z",), body=body and "body"
         )
+        interpolator = create("interpolators", method)
         self.boundary = Boundary(
             (wall,),
             {"body": body} if body else {},
-            create("interpolators", method),
-            self.kernel,
-            loop_parts(self.kernel, Linear(), dim),
+            interpolator.traits.evaluation_point,
             spacing=SPACING,
             support=self.kernel.support * self.h,
             no_slip=slip == "no",
-            corrected=corrected,
-            balanced=lift == "balanced",
         )
+        parts = loop_parts(self.kernel, Linear(), dim)
+        self.filling = Filling(interpolator, self.kernel, parts, corrected=corrected, balanced=lift == "balanced")
         position = lattice(BoxRegion(lower=(0.0,) * dim, upper=(side,) * dim), SPACING)
         position += np.random.default_rng(0).uniform(-jitter, jitter, position.shape) * SPACING
         self.n = len(position)
@@ -74,7 +74,7 @@ class Basin:
         parameters = LoopParameters.of(
             self.kernel, self.dim, smoothing_length=self.h, reference_density=DENSITY, sound_speed=SPEED
         )
-        self.boundary.fill(self.rows, self.lists, parameters)
+        self.filling(self.rows, self.lists, self.boundary, parameters)
         ghosts, c = self.rows[self.n :], self.columns
         wet = self.boundary.statuses != Status.DRY
         return wet, ghosts[:, c.position], ghosts[:, c.velocity], ghosts[:, c.pressure], ghosts[:, c.density]

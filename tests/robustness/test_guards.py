@@ -27,7 +27,8 @@ def put(column: str, value: float) -> Callable[[Any], None]:
 
 
 def spoil_ghosts(simulation: Any) -> None:
-    simulation.boundary.fill = lambda rows, *_, **__: rows.__setitem__((-1, simulation.columns.pressure), np.nan)
+    rows, pressure = simulation.system.rows, simulation.columns.pressure
+    simulation.system.fill_ghosts = lambda: rows.__setitem__((-1, pressure), np.nan)
 
 
 def spoil_body(simulation: Any) -> None:
@@ -35,13 +36,13 @@ def spoil_body(simulation: Any) -> None:
 
 
 def fall_back(simulation: Any) -> None:
-    fill = simulation.boundary.fill
+    fill = simulation.system.fill_ghosts
 
-    def fill_badly(*arguments: Any, **named: Any) -> None:
-        fill(*arguments, **named)
+    def fill_badly() -> None:
+        fill()
         simulation.boundary.statuses[:] = 2
 
-    simulation.boundary.fill = fill_badly
+    simulation.system.fill_ghosts = fill_badly
 
 
 def shoot(simulation: Any) -> None:

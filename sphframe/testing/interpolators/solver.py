@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sphframe.boundary.boundary import Boundary
+from sphframe.boundary.filling import Filling
 from sphframe.boundary.operator import operator
 from sphframe.geometry import PolygonWall
 from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint
@@ -68,15 +69,13 @@ def _filled_pool(method: BoundaryInterpolator) -> tuple[Boundary, Array]:
     boundary = Boundary(
         [PolygonWall(points=((0.0, 0.2), (0.0, 0.0), (0.3, 0.0)))],
         {},
-        method,
-        kernel,
-        loop_parts(kernel, create("equations_of_state", "linear"), 2),
+        method.traits.evaluation_point,
         spacing=_SPACING,
         support=support,
         no_slip=False,
-        corrected=True,
-        balanced=True,
     )
+    parts = loop_parts(kernel, create("equations_of_state", "linear"), 2)
+    filling = Filling(method, kernel, parts, corrected=True, balanced=True)
     fluid = _fluid_rows(columns)
     n = len(fluid)
     rows = np.concatenate([fluid, columns.zeros(boundary.count)])
@@ -87,7 +86,7 @@ def _filled_pool(method: BoundaryInterpolator) -> tuple[Boundary, Array]:
     parameters = LoopParameters.of(
         kernel, 2, smoothing_length=_SMOOTHING_LENGTH, reference_density=1000.0, sound_speed=40.0
     )
-    boundary.fill(rows, lists, parameters)
+    filling(rows, lists, boundary, parameters)
     return boundary, rows
 
 
