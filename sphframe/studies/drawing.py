@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sphframe.errors import InputError
+from sphframe.analysis import figures
+from sphframe.analysis.figures import new_figure
 from sphframe.studies.chapter import Picture
 
 __all__ = ["colour", "new_figure", "picture", "thinned", "tidy"]
@@ -30,26 +31,9 @@ def colour(method: str) -> str:
     return _COLOURS[known] if known else f"C{sum(map(ord, method)) % 10}"
 
 
-def new_figure(width: float, height: float) -> Any:
-    """Return an empty figure, inches.
-
-    Raises
-    ------
-    InputError: matplotlib is not installed.
-    """
-    try:
-        from matplotlib.figure import Figure
-    except ImportError:
-        raise InputError("pictures need matplotlib: python -m pip install 'sphframe[reproduce]'") from None
-    return Figure(figsize=(width, height), layout="constrained")
-
-
 def tidy(axes: Any, **settings: Any) -> None:
-    """Give axes the look of all figures."""
-    axes.set(**settings)
-    axes.grid(linewidth=0.4, alpha=0.4)
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.tick_params(labelsize=8, length=2)
+    """Give axes the look of all figures, with the small labels of a report."""
+    figures.tidy(axes, label_size=8.0, **settings)
 
 
 def picture(name: str, caption: str, figure: Any, *, raster: bool = False) -> Picture:

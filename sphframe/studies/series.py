@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from sphframe.analysis import read_reference_series, summary
+from sphframe.analysis import read_reference_series, running_mean, summary
 from sphframe.errors import InputError
 
 __all__ = ["Reference", "ended", "fallback_share", "running_mean"]
@@ -38,21 +38,6 @@ class Reference:
     def _note(self, text: str) -> None:
         if text not in self.absent:
             self.absent.append(text)
-
-
-def running_mean(t: Array, values: Array, window: float, step: float) -> xr.DataArray:
-    """Mean of a series over ``window`` around evenly spaced times ``t``, which takes out acoustic waves.
-
-    >>> running_mean(np.arange(5.0), np.array([0.0, 2.0, 0.0, 2.0, 0.0]), window=2.0, step=1.0).values.tolist()
-    [1.0, 1.0, 1.0, 1.0, 1.0]
-    """
-    if len(t) < 2:
-        return xr.DataArray(np.zeros(0), coords={"t": np.zeros(0)})
-    even = np.arange(t[0], t[-1] + 0.5 * step, step)
-    integral = np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(t))])
-    low, high = np.maximum(even - 0.5 * window, t[0]), np.minimum(even + 0.5 * window, t[-1])
-    smooth = (np.interp(high, t, integral) - np.interp(low, t, integral)) / (high - low)
-    return xr.DataArray(smooth, coords={"t": even})
 
 
 def ended(dataset: xr.Dataset) -> str:
