@@ -10,7 +10,14 @@ import numpy as np
 import xarray as xr
 
 import sphframe
-from sphframe.analysis import convergence_order, pressure_scale, read_reference_series, rest_pressure, summary
+from sphframe.analysis import (
+    convergence_order,
+    pressure_scale,
+    read_reference_series,
+    rest_pressure,
+    running_mean,
+    summary,
+)
 from sphframe.cases import Case, load_case
 from sphframe.errors import InputError, OutputError
 from sphframe.output import open_dataset
@@ -20,7 +27,7 @@ from sphframe.studies.chapter import Cell, Chapter, Picture, Table
 from sphframe.studies.drawing import colour, new_figure, picture, thinned, tidy
 from sphframe.studies.engine import Watch, carry_out
 from sphframe.studies.report import write_report
-from sphframe.studies.series import fallback_share, running_mean
+from sphframe.studies.series import fallback_share
 from sphframe.studies.tasks import RunTask
 
 __all__ = ["Comparison", "compare"]

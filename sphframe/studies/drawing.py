@@ -53,7 +53,7 @@ def thinned(t: ArrayLike, values: ArrayLike, most: int = 800) -> tuple[NDArray[n
     """Return a series with at most about ``most`` points that keeps the extremes, for drawing.
 
     >>> t, y = thinned(range(1000), [0.0] * 500 + [9.0] + [0.0] * 499, most=20)
-    >>> len(t), y.max()
+    >>> len(t), float(y.max())
     (20, 9.0)
     """
     x, y = np.asarray(t, dtype=np.float64), np.asarray(values, dtype=np.float64)

@@ -7,10 +7,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from sphframe.analysis import read_reference_series, running_mean, summary
+from sphframe.analysis import read_reference_series, summary
 from sphframe.errors import InputError
 
-__all__ = ["Reference", "ended", "fallback_share", "running_mean"]
+__all__ = ["Reference", "ended", "fallback_share"]
 
 Array = NDArray[np.float64]
 
