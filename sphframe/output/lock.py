@@ -4,7 +4,7 @@ import os
 import sys
 from pathlib import Path
 
-__all__ = ["lock_file"]
+__all__ = ["is_same_file", "lock_file"]
 
 
 def lock_file(path: Path) -> int | None:
@@ -25,10 +25,14 @@ def lock_file(path: Path) -> int | None:
                 return None
             except OSError:
                 return descriptor
-        if _is_same_file(descriptor, path):
+        if is_same_file(descriptor, path):
             return descriptor
         os.close(descriptor)  # replaced between opening and locking
 
 
-def _is_same_file(descriptor: int, path: Path) -> bool:
-    return os.path.samestat(os.fstat(descriptor), os.stat(path))
+def is_same_file(descriptor: int, path: Path) -> bool:
+    """Return whether the open file is the one at ``path``, which may have been deleted or replaced."""
+    try:
+        return os.path.samestat(os.fstat(descriptor), os.stat(path))
+    except FileNotFoundError:
+        return False

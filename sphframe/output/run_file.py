@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from sphframe.errors import OutputError
 from sphframe.output.checkpoint import Checkpoint, checkpoint_path
 from sphframe.output.files import draft_path
-from sphframe.output.lock import lock_file
+from sphframe.output.lock import is_same_file, lock_file
 from sphframe.output.schema import FORMAT, RunStatus, encode_texts
 from sphframe.output.target import exists_message, locked_message
 
@@ -167,13 +167,7 @@ class RunFile:
                 draft.unlink()
 
     def _check_in_place(self) -> None:
-        if self._lock is None:
-            return
-        try:
-            same = os.path.samestat(os.fstat(self._lock), os.stat(self.path))
-        except FileNotFoundError:
-            same = False
-        if not same:
+        if self._lock is not None and not is_same_file(self._lock, self.path):
             raise OutputError(
                 f"{self.path} was deleted or replaced while the run was writing it; the run stops."
                 " Run it again, with another --output if something cleans that folder"
