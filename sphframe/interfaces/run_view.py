@@ -1,7 +1,7 @@
 """Interfaces: what hooks, the output and the progress display may see of a running simulation.
 
-Every listener to the events of a run (:mod:`sphframe.hooks`) receives the simulation as a :class:`RunView`. All members
-are read-only: a listener observes and never changes the run. Only the checkpoint writer needs :class:`ResumableRun`.
+Every listener to the events of a run (:mod:`sphframe.hooks`) receives the simulation as a :class:`RunView`. A listener
+only reads its members and never changes the run. Only the checkpoint writer needs :class:`ResumableRun`.
 """
 
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, runtime_checkable
@@ -44,57 +44,38 @@ class GhostView(Protocol):
 class RunView(Protocol):
     """A running simulation of a case, as a listener to its events sees it."""
 
-    @property
-    def case(self) -> "Case":
-        """The case that runs."""
-
-    @property
-    def scene(self) -> "Scene":
-        """Its geometry and measuring points."""
-
-    @property
-    def time(self) -> float:
-        """Simulated time, s."""
-
-    @property
-    def step(self) -> int:
-        """Number of time steps made."""
-
-    @property
-    def time_step(self) -> float:
-        """Length of the last time step, s; 0 before the first."""
-
-    @property
-    def wall_clock(self) -> float:
-        """Wall-clock time spent in time steps, s."""
-
-    @property
-    def particle_count(self) -> int:
-        """Number of fluid particles at the start of the run."""
+    case: "Case"
+    """The case that runs."""
+    scene: "Scene"
+    """Its geometry and measuring points."""
+    time: float
+    """Simulated time, s."""
+    step: int
+    """Number of time steps made."""
+    time_step: float
+    """Length of the last time step, s; 0 before the first."""
+    wall_clock: float
+    """Wall-clock time spent in time steps, s."""
+    particle_count: int
+    """Number of fluid particles at the start of the run."""
 
     @property
     def fluid_count(self) -> int:
         """Number of fluid particles now."""
 
-    @property
-    def ghost_count(self) -> int:
-        """Number of ghost particles."""
+    ghost_count: int
+    """Number of ghost particles."""
 
     @property
     def removed_count(self) -> int:
         """Number of particles that have left the domain and were removed."""
 
-    @property
-    def densities_outside(self) -> int:
-        """Number of particles whose density is outside the band of the case's guards."""
-
-    @property
-    def sound_speed(self) -> float:
-        """Reference sound speed, m/s."""
-
-    @property
-    def smoothing_length(self) -> float:
-        """Smoothing length, m."""
+    densities_outside: int
+    """Number of particles whose density is outside the band of the case's guards."""
+    sound_speed: float
+    """Reference sound speed, m/s."""
+    smoothing_length: float
+    """Smoothing length, m."""
 
     @property
     def ghosts(self) -> GhostView:
@@ -141,17 +122,12 @@ class RunView(Protocol):
 class ResumableRun(RunView, Protocol):
     """A running simulation whose state can be saved, so that the run can be resumed from it."""
 
-    @property
-    def samples(self) -> int:
-        """Number of samples taken."""
-
-    @property
-    def frames(self) -> int:
-        """Number of frames stored."""
-
-    @property
-    def between_steps(self) -> bool:
-        """Whether no time step is under way: only then may the state be saved."""
+    samples: int
+    """Number of samples taken."""
+    frames: int
+    """Number of frames stored."""
+    between_steps: bool
+    """Whether no time step is under way: only then may the state be saved."""
 
     def state(self) -> dict[str, NDArray[Any]]:
         """Return copies of all that the rest of the run depends on, by name."""

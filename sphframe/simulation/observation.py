@@ -30,12 +30,15 @@ class Observation:
     system: fluid particles, ghosts and bodies; ``boundary`` its ghosts: ``position`` and ``mirror`` (g, dim) at
         present, ``statuses`` (g,).
     particle_count: fluid particles at the start; ``ghost_count``: ghosts.
+    sound_speed: reference sound speed c0, m/s; ``smoothing_length`` h, ``support`` radius of the kernel, m.
     """
 
     def __init__(self, case: Case, scene: Scene, components: Components, system: FluidSystem) -> None:
         self.case, self.scene, self.components, self.system = case, scene, components, system
         self.boundary: Boundary = system.boundary
         self.parameters, self.columns = system.parameters, system.columns
+        self.sound_speed, self.support = self.parameters.sound_speed, self.parameters.support
+        self.smoothing_length = self.parameters.smoothing_length
         self.particle_count = system.fluid_count
         self.ghost_count = self.boundary.count
         lower, upper = (np.array(corner, dtype=np.float64) for corner in scene.domain)
@@ -43,21 +46,6 @@ class Observation:
         self._gauges = Gauges(scene.gauges, lower, upper, 0.25 * case.particle_spacing)
         self._panels = wall_panels(scene.walls, case.particle_spacing)
         self._sample: Callable[..., None] = specialise(sample_points, components.parts)
-
-    @property
-    def sound_speed(self) -> float:
-        """Reference sound speed c0, m/s."""
-        return self.parameters.sound_speed
-
-    @property
-    def smoothing_length(self) -> float:
-        """Smoothing length h, m."""
-        return self.parameters.smoothing_length
-
-    @property
-    def support(self) -> float:
-        """Radius of the kernel support, m."""
-        return self.parameters.support
 
     @property
     def fluid_count(self) -> int:
