@@ -16,15 +16,12 @@ from sphframe.studies import (
     Section,
     Table,
     Task,
-    colour,
-    ended,
-    fallback_share,
     new_figure,
     picture,
-    thinned,
     tidy,
 )
-from sphframe_huang2019.variants import OURS, PAPER, Variant, run_with
+from sphframe_huang2019.histories import draw_history
+from sphframe_huang2019.variants import OURS, PAPER, Variant, row_of_run, run_with
 
 __all__ = ["SECTION"]
 
@@ -42,8 +39,8 @@ def _tasks(quick: bool) -> list[Task]:
     return [run_with(v, _label(v), "hydrostatic-tank", **own) for v in VARIANTS]
 
 
-def _figures(dataset: xr.Dataset) -> dict[str, Any]:
-    """Deviations from rest in per cent of rho g H: at the start, and over the second half."""
+def _key_figures(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return mean errors and standard deviations of the probes' pressures from the state of rest, % of rho g H."""
     t = dataset["probe_time"].values
     rest = rest_pressure(dataset, dataset["probe_y"].values)
     deviation = 100.0 * (dataset["probe_pressure"].values - rest) / pressure_scale(dataset)
@@ -57,25 +54,24 @@ def _figures(dataset: xr.Dataset) -> dict[str, Any]:
         "noise": float(noise.max()),
         "at the end": float(deviation[end].std(axis=0).max()),
         "at the start": float(deviation[start].std(axis=0).max()),
-        "fallback": fallback_share(dataset),
-        "to the end": ended(dataset),
     }
 
 
 def _chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) -> Chapter:
-    found = {v: _figures(runs[_label(v)]) for v in VARIANTS}
-    rows: list[dict[str, Cell]] = [
-        {
-            "boundary": v.label,
-            "of": "the paper" if v.published else "ours",
-            "mean error, corner P0 (%)": f["corner"],
-            "mean error, P1-P3 (%)": f["wall"],
-            "deviation (%)": f["noise"],
-            "deviation, last seconds (%)": f["at the end"],
-            "deviation, first second (%)": f["at the start"],
-            "fallback (% of wet ghosts)": f["fallback"],
-            "to the end": f["to the end"],
-        }
+    found = {v: _key_figures(runs[_label(v)]) for v in VARIANTS}
+    rows = [
+        row_of_run(
+            v,
+            runs[_label(v)],
+            {
+                "mean error, corner P0 (%)": f["corner"],
+                "mean error, P1-P3 (%)": f["wall"],
+                "deviation (%)": f["noise"],
+                "deviation, last seconds (%)": f["at the end"],
+                "deviation, first second (%)": f["at the start"],
+            },
+            published=v.published,
+        )
         for v, f in found.items()
     ]
     first = runs[_label(VARIANTS[0])]
@@ -92,9 +88,9 @@ def _chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) 
         [
             f"Water 1 m long and 0.3 m deep at rest, particle spacing {spacing:g} mm, {until:.3g} s; pressures at four"
             " probes on the left wall, P0 in the corner. Errors and standard deviations are in per cent of rho g H,"
-            " over the second half of the run where nothing else is said; the largest of the probes is given."
-            " Time steps are adaptive, with a Courant number of 0.7, about 0.26 ms at the paper's spacing; the paper's"
-            " is 0.1 ms.",
+            " over the second half of the run unless another time is given, and the largest of the probes. Time steps"
+            " are adaptive, with a Courant number of 0.7: about 0.26 ms at the paper's spacing, where the paper has"
+            " 0.1 ms.",
             "Goal of this project for improved Shepard with the balanced lift: mean error below 0.4 %, 0.8 % in the"
             " corner, deviation below 0.25 % to the end." + _goal(found[Variant("improved-shepard", "balanced")]),
         ],
@@ -103,7 +99,7 @@ def _chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) 
             Table("hydrostatic_tank_probes", "Mean pressure at the probes, second half of the run", probes),
         ],
         [
-            _histories(runs, PAPER, "hydrostatic_paper", "Fig. 3 anew: pressure at P0 to P3, the paper's methods"),
+            _histories(runs, PAPER, "hydrostatic_paper", "As Fig. 3: pressure at P0 to P3, the paper's methods"),
             _histories(runs, OURS, "hydrostatic_ours", "The same with the boundaries of this project"),
         ],
         _claims({v.method: f for v, f in found.items() if v.published}),
@@ -111,6 +107,7 @@ def _chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) 
 
 
 def _goal(figures: Mapping[str, Any]) -> str:
+    """Say whether the goal of this project is met."""
     met = figures["wall"] < 0.4 and figures["corner"] < 0.8 and max(figures["noise"], figures["at the end"]) < 0.25
     return (
         f" Measured: {figures['wall']:.2f} %, {figures['corner']:.2f} %, {figures['noise']:.2f} %, in the last seconds"
@@ -138,7 +135,7 @@ def _claims(paper: Mapping[str, Mapping[str, Any]]) -> list[Claim]:
             f" {shepard['at the start']:.2f} %",
             paper["normalized"]["at the start"] > 2.0 * shepard["at the start"],
             "Judged by twice that of improved Shepard. The runs start from the state of rest of the compressible fluid;"
-            " how the paper's start is not said.",
+            " the paper does not say how its runs start.",
         ),
         Claim.judged(
             "Fig. 3",
@@ -173,11 +170,8 @@ def _histories(runs: Mapping[str, xr.Dataset], variants: Sequence[Variant], name
     for k, axes in enumerate(figure.subplots(2, 2, sharex=True).flat):
         for variant in variants:
             dataset = runs[_label(variant)]
-            t, p = thinned(dataset["probe_time"], dataset["probe_pressure"][:, k], most=400)
-            mirror = variant.lift == "mirror" and not variant.published
-            axes.plot(
-                t, p, color=colour(variant.method), linewidth=0.7, linestyle=":" if mirror else "-", label=variant.label
-            )
+            pressure = dataset["probe_pressure"][:, k]
+            draw_history(axes, variant, dataset["probe_time"], pressure, points=400, linewidth=0.7)
         rest = rest_pressure(dataset, dataset["probe_y"].values[k])
         scale = pressure_scale(dataset)
         axes.axhline(float(rest), color="black", linewidth=0.8, linestyle="--", label="at rest")
@@ -186,7 +180,7 @@ def _histories(runs: Mapping[str, xr.Dataset], variants: Sequence[Variant], name
     for axes in figure.axes[2:]:
         axes.set_xlabel("t (s)")
     figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=8)
-    return picture(name, f"{caption}; axes reach 10 % of rho g H to both sides.", figure)
+    return picture(name, f"{caption}. The axes reach 10 % of rho g H above and below the pressure at rest.", figure)
 
 
 SECTION = Section("hydrostatic-tank", _tasks, _chapter)

@@ -1,11 +1,16 @@
 """What the sections read from series of known shape."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
-from sphframe_huang2019 import cost, dam_break
+from sphframe_huang2019.cost.claims import claims
+from sphframe_huang2019.cost.medians import Medians, disturbance, growth
+from sphframe_huang2019.cost.published import SPEED_UPS
+from sphframe_huang2019.cost.states import VARIANTS
+from sphframe_huang2019.dam_break.sensor import events, rms_difference
 
 from sphframe.studies import Verdict
 
@@ -18,35 +23,36 @@ def pressure() -> xr.DataArray:
 
 
 def test_events_of_a_sensor() -> None:
-    events = dam_break._events(pressure())
-    assert events["arrival"] == pytest.approx(2.5, abs=0.011)
-    assert events["first peak"] == pytest.approx(0.7, abs=1e-3)
-    assert events["at"] == pytest.approx(2.8, abs=0.011)
-    assert events["plateau"] == pytest.approx(0.5, abs=1e-3)
-    assert events["second peak"] == pytest.approx(0.9, abs=1e-3)
-    assert events["second peak at"] == pytest.approx(5.8, abs=0.011)
+    found = events(pressure())
+    assert found["arrival"] == pytest.approx(2.5, abs=0.011)
+    assert found["first peak"] == pytest.approx(0.7, abs=1e-3)
+    assert found["at"] == pytest.approx(2.8, abs=0.011)
+    assert found["plateau"] == pytest.approx(0.5, abs=1e-3)
+    assert found["second peak"] == pytest.approx(0.9, abs=1e-3)
+    assert found["second peak at"] == pytest.approx(5.8, abs=0.011)
 
 
 def test_a_run_that_ended_early_has_no_plateau_and_no_difference() -> None:
     early = pressure().sel(t=slice(0.0, 4.0))
-    assert math.isnan(dam_break._events(early)["plateau"])
-    assert math.isnan(dam_break._rms(early, pressure()))
-    assert dam_break._rms(pressure() + 0.1, pressure()) == pytest.approx(0.1)
+    assert math.isnan(events(early)["plateau"])
+    assert math.isnan(rms_difference(early, pressure()))
+    assert rms_difference(pressure() + 0.1, pressure()) == pytest.approx(0.1)
 
 
-def medians(fill: dict[str, float], neighbours: float, power: dict[str, float]) -> dict[str, dict[str, float]]:
+def costs(fill: dict[str, float], neighbours: float, power: dict[str, float]) -> dict[str, Medians]:
+    """Costs whose interpolation takes ``fill`` times neighbours^power, by the method."""
     return {
-        v.label: {
-            "fill": fill.get(v.method, 1.0) * neighbours ** power.get(v.method, 1.0),
-            "fill ratio": fill.get(v.method, 1.0),
-            "step": 10.0,
-            "step ratio": fill.get(v.method, 1.0),
-            "points": 100.0,
-            "neighbours": neighbours,
-            "spread": 0.0,
-            "fill spread": 0.0,
-        }
-        for v in cost.VARIANTS
+        v.label: Medians(
+            fill=fill.get(v.method, 1.0) * neighbours ** power.get(v.method, 1.0),
+            step=10.0,
+            fill_ratio=fill.get(v.method, 1.0),
+            step_ratio=fill.get(v.method, 1.0),
+            fill_spread=0.0,
+            step_spread=0.0,
+            points=100.0,
+            neighbours=neighbours,
+        )
+        for v in VARIANTS
     }
 
 
@@ -58,19 +64,19 @@ def test_differences_over_the_time_do_not_depend_on_where_points_crowd() -> None
     dense = xr.DataArray(np.zeros(len(crowded)), coords={"t": crowded})
     expected = 0.4 * math.sqrt(0.6 / 3.6)
     for experiment in (sparse, dense):
-        assert dam_break._rms(computed, experiment) == pytest.approx(expected, rel=0.02)
-    assert dam_break._rms(computed, sparse, at_points=True) == 0.0
-    assert dam_break._rms(computed, dense, at_points=True) > 0.35
+        assert rms_difference(computed, experiment) == pytest.approx(expected, rel=0.02)
+    assert rms_difference(computed, sparse, at_points=True) == 0.0
+    assert rms_difference(computed, dense, at_points=True) > 0.35
 
 
 def test_growth_and_verdicts_of_costs() -> None:
     power = {"mls-quadratic": 2.0}
-    by_ratio = {r: medians({}, 30.0 * r**2, power) for r in (1.0, 2.0, 3.0)}
-    growth = {v.label: cost._growth(by_ratio, v.label) for v in cost.VARIANTS}
-    assert growth["mls-quadratic, mirror"] == pytest.approx(2.0)
-    assert growth["normalized, mirror"] == pytest.approx(1.0)
-    as_printed = {figure: medians(dict(ups), 30.0, {}) for figure, ups in cost.SPEED_UPS.items()}
-    verdicts = {(c.where, c.statement): c.verdict for c in cost._claims(as_printed, growth, None)}
+    by_ratio = {r: costs({}, 30.0 * r**2, power) for r in (1.0, 2.0, 3.0)}
+    exponents = {v.label: growth(by_ratio, v.label) for v in VARIANTS}
+    assert exponents["mls-quadratic, mirror"] == pytest.approx(2.0)
+    assert exponents["normalized, mirror"] == pytest.approx(1.0)
+    as_printed = {figure: costs(dict(ups), 30.0, {}) for figure, ups in SPEED_UPS.items()}
+    verdicts = {(c.where, c.statement): c.verdict for c in claims(as_printed, exponents, None)}
     speed_ups = [verdict for (where, _), verdict in verdicts.items() if where.startswith("Fig")]
     assert set(speed_ups) == {Verdict.REPRODUCED}
     table = {statement: verdict for (where, statement), verdict in verdicts.items() if where == "Table 1"}
@@ -79,14 +85,14 @@ def test_growth_and_verdicts_of_costs() -> None:
 
 
 def test_on_a_busy_machine_times_decide_nothing() -> None:
-    figures = {figure: medians(dict(ups), 30.0, {}) for figure, ups in cost.SPEED_UPS.items()}
-    growth = {v.label: 1.0 for v in cost.VARIANTS}
-    runs = {"a": xr.Dataset(attrs={"busy": 1.01}), "b": xr.Dataset(attrs={"busy": 1.8})}
-    assert cost._disturbance(runs, list(figures.values())) is None
-    measured = [{v: {**one, "fill spread": 0.4} for v, one in found.items()} for found in figures.values()]
-    reason = cost._disturbance(runs, measured)
+    figures = {figure: costs(dict(ups), 30.0, {}) for figure, ups in SPEED_UPS.items()}
+    exponents = {v.label: 1.0 for v in VARIANTS}
+    runs = [xr.Dataset(attrs={"busy": 1.01}), xr.Dataset(attrs={"busy": 1.8})]
+    assert disturbance(runs, figures.values()) is None
+    measured = [{v: replace(one, fill_spread=0.4) for v, one in found.items()} for found in figures.values()]
+    reason = disturbance(runs, measured)
     assert reason is not None
-    claims = cost._claims(figures, growth, reason)
     assert "1.80 times" in reason
-    assert {claim.verdict for claim in claims} == {Verdict.NOT_CHECKABLE}
-    assert all(claim.reason == reason and claim.measured != "-" for claim in claims)
+    judged = claims(figures, exponents, reason)
+    assert {claim.verdict for claim in judged} == {Verdict.NOT_CHECKABLE}
+    assert all(claim.reason == reason and claim.measured != "-" for claim in judged)
