@@ -117,10 +117,10 @@ def _chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) 
         [
             f"Flume of {toe:g} m, depth 0.25 m, wave 0.15 m high, wall leaning outward at 120 degrees, particle spacing"
             f" {spacing:g} mm ({first.sizes['particle']} particles). P0 is 0.05 m and P1 0.15 m above the bed; still"
-            " water has 1962 and 981 Pa there. Noise is the standard deviation from a running mean over 0.05 s; peaks and"
-            " differences are those of the running means. The paper names no paddle: here a piston by Rayleigh's theory"
-            " makes the wave, at whose speed the crest would be at 10 m after 5.95 s. Time steps are adaptive, with a"
-            " Courant number of 0.7: about 0.27 ms at the paper's resolution, where the paper has 0.1 ms.",
+            " water has 1962 and 981 Pa there. Noise is the standard deviation from a running mean over 0.05 s; peaks"
+            " and differences are those of the running means. The paper names no paddle: here a piston by Rayleigh's"
+            " theory makes the wave, at whose speed the crest would be at 10 m after 5.95 s. Time steps are adaptive,"
+            " with a Courant number of 0.7: about 0.27 ms at the paper's resolution, where the paper has 0.1 ms.",
             "The measured pressures that the paper shows (Zheng 2015) could not be obtained: the methods are compared"
             " with each other and with still water.",
         ],

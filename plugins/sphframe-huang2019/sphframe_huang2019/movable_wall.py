@@ -123,8 +123,8 @@ def _chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) 
         [
             f"Depth 0.2 m, seawall of 250 kg/m at 2.5 m on a spring of 10 N/m, particle spacing {spacing:g} mm"
             f" ({first.sizes['particle']} particles). The wall gives way at 1.1 times the hydrostatic force F static;"
-            " F* = F/F static, x* = X/d. The paper does not give the height of the wave. It is 0.3 d here, chosen so that"
-            " the wall gives way within the paper's 2.0 to 2.2 s: this time is not a result.",
+            " F* = F/F static, x* = X/d. The paper does not give the height of the wave. It is 0.3 d here, chosen so"
+            " that the wall gives way within the paper's 2.0 to 2.2 s: this time is not a result.",
         ],
         [Table("movable_wall", "Force on the seawall and its motion", rows)],
         [
