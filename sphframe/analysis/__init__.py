@@ -1,4 +1,4 @@
-"""Analysis: from a run's dataset to numbers and pictures. Importing it gives datasets the accessor ``sph``."""
+"""Analysis: numbers and pictures from the dataset of a run. Importing it adds the accessor ``sph`` to datasets."""
 
 from sphframe.analysis.accessor import SphAccessor
 from sphframe.analysis.convergence import convergence_order, convergence_orders

@@ -1,4 +1,4 @@
-"""Analysis: everything above as methods of a dataset, ``dataset.sph``."""
+"""Analysis: the functions of this room as methods of a dataset, ``dataset.sph``."""
 
 from typing import Any
 
@@ -59,7 +59,7 @@ class SphAccessor:
         return probes.probe_statistics(self._dataset, start=start, stop=stop, expected=expected)
 
     def dimensionless(self, name: str) -> xr.DataArray:
-        """A sampled series over t sqrt(g/H), and over rho0 g H if it is a pressure, over H if it is a length."""
+        """Return a sampled series over t sqrt(g/H), pressures divided by rho0 g H and lengths by H."""
         series = self._dataset[name]
         scale = {"Pa": self.pressure_scale, "m": float(self._dataset.attrs["depth"])}.get(series.attrs["units"], 1.0)
         scaled = series / scale

@@ -42,12 +42,12 @@ Array = NDArray[np.float64]
 View = tuple[tuple[float, float], tuple[float, float]]
 
 _WALL_COLOUR = "#3b3b3b"
-_EDGE = 0.4  # pt around each particle: small discs would fade into the background where they are antialiased
+_EDGE = 0.4  # pt around each particle: without it, antialiased small discs would be pale
 
 
 @dataclass(frozen=True)
 class Field:
-    """A field as it is drawn: its label, unit, the factor from SI units, and a perceptually uniform colour map."""
+    """How a field is drawn: its label, unit, the factor from SI units, and a perceptually uniform colour map."""
 
     label: str
     unit: str
@@ -92,13 +92,13 @@ def draw_particles(axes: "Axes", dataset: xr.Dataset, frame: xr.Dataset, values:
     """Draw the particles of ``frame`` as discs of one spacing, coloured by ``values`` (particles,).
 
     In 3-D only those within one spacing of the middle plane are drawn. Particles without a finite value are drawn in
-    the colour of the walls, so that they are not overlooked.
+    the colour of the walls, so that they can be seen.
     """
     from matplotlib.collections import EllipseCollection
 
     position, values = shown_particles(dataset, frame, values)
     spacing = float(dataset.attrs["particle_spacing"])
-    # slightly more than the spacing, so that a lattice at rest shows no gaps
+    # slightly more than the spacing, so that a lattice at rest has no gaps in the picture
     collection = EllipseCollection(
         [1.1 * spacing],
         [1.1 * spacing],
@@ -132,7 +132,10 @@ def move_walls(lines: "Sequence[Line2D]", dataset: xr.Dataset, time: float) -> N
 
 
 def walls_at(dataset: xr.Dataset, time: float) -> list[tuple[Array, int]]:
-    """The polylines (n, dim) that draw the walls, where they are at ``time`` (s), each with the index of its wall."""
+    """Return the polylines (n, dim) of the walls in m at ``time`` (s), each with the index of its wall.
+
+    Moving walls are displaced by the position of their body; its rotation is not applied.
+    """
     nodes = dataset["outline_node"].values
     counts, bodies = dataset["outline_node_count"].values, dataset["wall_body"].values
     result = []
@@ -145,7 +148,7 @@ def walls_at(dataset: xr.Dataset, time: float) -> list[tuple[Array, int]]:
 
 
 def draw_probes(axes: "Axes", dataset: xr.Dataset) -> "list[Line2D]":
-    """Mark where the pressure probes are; return the marks."""
+    """Mark the positions of the pressure probes and return the marks."""
     if "probe_pressure" not in dataset:
         return []
     across, up = dataset["probe_x"].values, dataset[f"probe_{vertical_axis(dataset)}"].values
@@ -163,12 +166,12 @@ def draw_free_surface(axes: "Axes", dataset: xr.Dataset, time: float) -> None:
 
 
 def view_of(dataset: xr.Dataset, frames: Sequence[xr.Dataset]) -> View:
-    """Limits of x and height that show the walls, but not much more air than the water needs."""
+    """Limits of x and of the height, m, that show the walls and the water, with little air above the water."""
     nodes = dataset["outline_node"].values
     positions = np.concatenate([frame["position"].values for frame in frames])
     x0, x1 = nodes[:, 0].min(), np.fmax(nodes[:, 0].max(), np.nanmax(positions[:, 0]))
     y0 = nodes[:, -1].min()
-    # a few drops of spray do not set the scale
+    # a few drops of spray do not determine the height
     top = max(float(np.nanpercentile(positions[:, -1], 99.8)), float(dataset.attrs["depth"]))
     y1 = min(y0 + 1.15 * (top - y0), max(float(nodes[:, -1].max()), top))
     margin = 0.015 * (x1 - x0)
@@ -176,7 +179,10 @@ def view_of(dataset: xr.Dataset, frames: Sequence[xr.Dataset]) -> View:
 
 
 def colour_limits(dataset: xr.Dataset, frames: Sequence[xr.Dataset], name: str) -> tuple[float, float]:
-    """Ends of the colour bar of a field, in its unit: 0 to rho0 g H for the pressure, else the range of the values."""
+    """Values at the ends of the colour bar, in the unit of the field.
+
+    They are 0 and rho0 g H for the pressure, and percentiles of the values for other fields.
+    """
     factor = FIELDS[name].factor
     if name == "pressure" and pressure_scale(dataset) > 0.0:
         return 0.0, pressure_scale(dataset) * factor
@@ -186,12 +192,12 @@ def colour_limits(dataset: xr.Dataset, frames: Sequence[xr.Dataset], name: str) 
 
 
 def time_label(dataset: xr.Dataset, time: float) -> str:
-    """Time in s and over sqrt(H/g)."""
+    """Time in s, and dimensionless as t sqrt(g/H), as text."""
     return rf"$t$ = {time:.3f} s    ($t\sqrt{{g/H}}$ = {time / time_scale(dataset):.2f})"
 
 
 def run_title(dataset: xr.Dataset) -> str:
-    """What was run, in one line: case, method, resolution, and how the run stands unless it is complete."""
+    """One line with case, method and resolution, and with the status of a run that is not complete."""
     case = case_of(dataset)
     parts = [
         str(dataset.attrs["title"]).capitalize(),
@@ -208,7 +214,7 @@ def draw_colour_bar(
 ) -> None:
     """Draw the colour bar of ``drawn`` beside ``axes``, labelled in points of ``size``.
 
-    Its ends are pointed where there may be values beyond them: always above, and below unless it starts at zero.
+    The upper end is drawn as a triangle, as values may lie beyond it; so is the lower end unless it is zero.
     """
     extend = "max" if drawn.get_clim()[0] == 0.0 else "both"
     bar = figure.colorbar(drawn, ax=axes, pad=0.01, fraction=0.03, extend=extend, **options)

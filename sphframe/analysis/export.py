@@ -1,4 +1,4 @@
-"""Analysis: a run for ParaView (VTKHDF, or a PVD series) and its sampled series as CSV.
+"""Analysis: export of a run for ParaView (VTKHDF or a PVD series), and of its sampled series as CSV.
 
 VTK writes the files; PyVista makes its data sets from arrays. Positions have three components, with z = 0 in 2-D.
 """
@@ -31,7 +31,7 @@ def export_run(dataset: xr.Dataset, folder: str | os.PathLike[str], to: str, *, 
     Parameters
     ----------
     dataset: the run, finished or still going.
-    folder: made if it is missing; files of an earlier export are replaced.
+    folder: created if it is missing; files of an earlier export are replaced.
     to: ``vtkhdf`` for one file per part and frame (VTK's HDF format), ``pvd`` for one series per part that ParaView
         opens with its times, ``csv`` for probes, gauges, energies and diagnostics. The parts are ``fluid``, ``ghosts``
         and ``walls``.
@@ -55,7 +55,7 @@ def export_run(dataset: xr.Dataset, folder: str | os.PathLike[str], to: str, *, 
 
 
 def export_csv(dataset: xr.Dataset, path: str | os.PathLike[str]) -> Path:
-    """Write all sampled series over time into one table, a column each, named ``variable[label] (unit)``."""
+    """Write all sampled series into one table with one column per series, named ``variable[label] (unit)``."""
     columns = {}
     for name, variable in dataset.data_vars.items():
         if variable.dims[:1] == ("probe_time",):
@@ -74,9 +74,10 @@ def export_csv(dataset: xr.Dataset, path: str | os.PathLike[str]) -> Path:
 
 
 def vtk_parts(dataset: xr.Dataset, time: float | None = None) -> "dict[str, pyvista.PolyData]":
-    """``fluid``, ``ghosts`` and ``walls`` at the frame nearest to ``time``, as VTK data sets, those that the run has.
+    """Return those of ``fluid``, ``ghosts`` and ``walls`` that the run has, as VTK data sets.
 
-    The ghosts of moving walls are where they were at the start: a run's file does not say where they go.
+    They are those of the frame nearest to ``time``, s. The ghosts of moving walls are shown at their initial positions,
+    as the file of a run does not hold their later ones.
 
     Raises
     ------
@@ -118,7 +119,7 @@ def _export_vtk(dataset: xr.Dataset, folder: Path, to: str, track: Callable[...,
     written: dict[str, list[tuple[float, Path]]] = {}
     times = [float(time) for time in dataset["time"].values]
     if not times:
-        particles_at(dataset)  # says that there is no frame yet
+        particles_at(dataset)  # raises the error that there is no frame yet
     for number, time in enumerate(track(times)):
         for part, mesh in vtk_parts(dataset, time).items():
             path = folder / f"{part}_{number:04d}.{ending}"

@@ -1,4 +1,4 @@
-"""Analysis: fields of the fluid at one time, on particles, on a grid, and the free surface."""
+"""Analysis: fields of the fluid at one time on particles and on a grid, and the free surface."""
 
 import numpy as np
 import xarray as xr
@@ -35,7 +35,7 @@ def particles_at(dataset: xr.Dataset, time: float | None = None) -> xr.Dataset:
 def free_surface(dataset: xr.Dataset, time: float | None = None, *, resolution: float | None = None) -> xr.DataArray:
     """Elevation of the highest fluid in vertical columns, in m, at the frame nearest to ``time``.
 
-    A particle reaches half a spacing above its centre. Overturning water and drops count as the highest fluid.
+    The surface of a particle is half a spacing above its centre. Overturning water and drops count as fluid.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def to_grid(
 
 
 def _axis(dataset: xr.Dataset, k: int, step: float) -> Array:
-    """Points from wall to wall along axis ``k``, half a step inside."""
+    """Evenly spaced points from wall to wall along axis ``k``, half a step from the walls."""
     nodes = dataset["outline_node"].isel(space=k)
     low, high = float(nodes.min()), float(nodes.max())
     count = max(round((high - low) / step), 1)

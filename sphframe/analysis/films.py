@@ -1,7 +1,7 @@
 """Analysis: films of a run. Needs matplotlib and imageio-ffmpeg, which brings its own ffmpeg.
 
-Only what moves is drawn again in each frame. Particles are markers in 64 levels of colour: matplotlib draws equal
-markers from one raster, six times as fast as discs of a colour each.
+Only the moving parts are drawn again in each frame. Particles are markers in 64 colours: matplotlib copies equal
+markers from one raster, which is six times as fast as discs with individual colours.
 """
 
 import itertools
@@ -61,19 +61,19 @@ def animate_run(
     frames_per_second: float = 25.0,
     track: Any = iter,
 ) -> int:
-    """Write a film of all frames of a run, finished or still going, and return how many there are.
+    """Write a film of all frames of a run and return the number of frames.
 
     Parameters
     ----------
-    dataset: the run.
+    dataset: the run, finished or in progress.
     path: the film, ``.mp4`` or ``.gif``; replaced if it exists.
     field: ``pressure``, ``speed`` or ``density``.
-    frames_per_second: how fast the film plays.
+    frames_per_second: speed at which the film is played.
     track: wraps the list of times, such as ``rich.progress.track``.
 
     Raises
     ------
-    InputError: matplotlib or imageio-ffmpeg is not installed, the ending of ``path`` or the field is unknown, or the
+    InputError: matplotlib or imageio-ffmpeg is not installed, the suffix of ``path`` or the field is unknown, or the
         run has no frame yet.
     OutputError: the film cannot be written.
     """
@@ -106,9 +106,9 @@ def animate_run(
 
 def _check_film(path: Path, frames_per_second: float) -> None:
     if path.suffix.lower() not in _CODECS:
-        raise InputError(f"a film ends in .mp4 or .gif, not {path.name!r}")
+        raise InputError(f"the name of a film must end in .mp4 or .gif, not {path.name!r}")
     if not frames_per_second > 0.0:
-        raise InputError(f"a film has a positive number of frames per second, such as 25, not {frames_per_second:g}")
+        raise InputError(f"the number of frames per second must be positive, such as 25, not {frames_per_second:g}")
     if not path.parent.is_dir():
         raise OutputError(f"the folder {path.parent} for {path.name} does not exist: create it")
 
@@ -124,7 +124,7 @@ def _imageio_ffmpeg() -> Any:
 def film_frames(
     dataset: xr.Dataset, *, field: str = "pressure", times: Iterable[float] | None = None
 ) -> Iterator[NDArray[np.uint8]]:
-    """Draw the frames nearest to ``times`` (s; by default all), each as pixels (height, width, 4) in red, green, blue.
+    """Draw the frames nearest to ``times`` (s; by default all) and yield the pixels of each, (height, width, 4) RGBA.
 
     Raises
     ------
@@ -159,7 +159,7 @@ class _FilmPicture:
         self._probes = draw_probes(self._axes, dataset)
         self._title = self._axes.set_title(_time_text(dataset, 0.0), fontsize=12, loc="left")
         self._walls = draw_walls(self._axes, dataset, 0.0)
-        canvas.draw()  # lays the figure out
+        canvas.draw()  # computes the layout of the figure
         figure.set_layout_engine("none")
         self._dots = _particle_markers(self._axes, dataset, FIELDS[field].colours)
         for artist in (self._title, *self._walls, *self._probes):
@@ -191,7 +191,7 @@ class _FilmPicture:
 
 
 def _film_axes(dataset: xr.Dataset, style: Field, view: View, limits: tuple[float, float]) -> "Axes":
-    """Return the axes of a new figure with all labels and the colour bar, but nothing of the run in them."""
+    """Return the empty axes of a new figure, with all labels and the colour bar."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
@@ -208,7 +208,7 @@ def _film_axes(dataset: xr.Dataset, style: Field, view: View, limits: tuple[floa
 
 
 def _particle_markers(axes: "Axes", dataset: xr.Dataset, colours: str) -> "list[Line2D]":
-    """Return one line of markers for each level of colour, without points as yet."""
+    """Return one line of markers per colour, without points yet."""
     from matplotlib import colormaps
 
     size = _marker_size(axes, dataset)
@@ -219,11 +219,11 @@ def _particle_markers(axes: "Axes", dataset: xr.Dataset, colours: str) -> "list[
 
 
 def _time_text(dataset: xr.Dataset, time: float) -> str:
-    """Time in plain text, which is laid out faster than mathematics."""
+    """Time as plain text, whose layout takes less time than that of a formula."""
     return f"t = {time:.3f} s    (t √(g/H) = {time / time_scale(dataset):.2f})"
 
 
 def _marker_size(axes: "Axes", dataset: xr.Dataset) -> float:
-    """A particle spacing in points, enlarged by a pixel: markers are drawn at whole pixels, and would leave gaps."""
+    """The particle spacing in points plus one pixel, which closes gaps between markers at whole pixels."""
     ends = axes.transData.transform([(0.0, 0.0), (float(dataset.attrs["particle_spacing"]), 0.0)])
     return (float(ends[1, 0] - ends[0, 0]) + 1.0) * 72.0 / _DOTS_PER_INCH

@@ -1,4 +1,4 @@
-"""Analysis: a run as it stands now, for those who watch it go."""
+"""Analysis: status and picture of a run in progress, for display while it is running."""
 
 import io
 import math
@@ -20,23 +20,23 @@ from sphframe.output import open_dataset
 
 __all__ = ["LiveRun", "Look"]
 
-_SHARE = 0.1  # of the time, at most, goes into drawing: it is the run that needs the cores
-_SILENCE = 60.0  # s without a word from a run that writes every second
+_SHARE = 0.1  # largest share of the time that is spent on drawing, as the run needs the cores
+_SILENCE = 60.0  # s without writing after which a run, which writes every second, is said to be silent
 
 
 @dataclass(frozen=True)
 class Look:
-    """What is seen of a run at one moment.
+    """The status of a run at one moment.
 
     Attributes
     ----------
     status: ``running``, ``completed``, ``stopped``, or ``unreadable`` while the file is missing or damaged.
-    message: why the run stopped, why its file cannot be read, that there is no frame yet or nothing new for long;
-        else empty.
-    facts: what is known of the run, by name, as texts.
-    picture: the newest frame, the histories and the energies as a PNG; empty before the first frame. The last one
-        that could be drawn stays.
-    drawn: how many pictures were drawn so far.
+    message: why the run stopped, why its file cannot be read, that there is no frame yet, or that nothing was
+        written for a long time; otherwise empty.
+    facts: data about the run as texts, by name.
+    picture: the latest frame, the series and the energies as a PNG; empty before the first frame. While the file
+        cannot be read it is the last picture that was drawn.
+    drawn: number of pictures drawn so far.
     """
 
     status: str
@@ -47,11 +47,11 @@ class Look:
 
 
 class LiveRun:
-    """Looks at the file of a run again and again, from any thread, and draws only what has changed.
+    """Reads the file of a run repeatedly, from any thread, and draws a new picture when the run has progressed.
 
     Parameters
     ----------
-    path: the output file of a run, finished or still going.
+    path: the output file of a run, finished or in progress.
     field: ``pressure``, ``speed`` or ``density``.
 
     Raises
@@ -62,7 +62,7 @@ class LiveRun:
     def __init__(self, path: str | os.PathLike[str], *, field: str = "pressure") -> None:
         self.path = Path(path)
         self._field = field
-        self._lock = threading.Lock()  # netCDF and matplotlib are not made for several threads
+        self._lock = threading.Lock()  # netCDF and matplotlib are not thread-safe
         self._look = Look("unreadable", "", {})
         self._shown: tuple[object, ...] = ()
         self._rest_until = 0.0
@@ -72,18 +72,18 @@ class LiveRun:
 
     @property
     def latest(self) -> Look:
-        """What was seen last, without looking again."""
+        """The result of the last :meth:`look`; the file is not read."""
         return self._look
 
     def look(self) -> Look:
-        """Return how the run stands. What goes wrong with the file is the ``message``; nothing is raised for it."""
+        """Read the file and return the status of the run; problems with the file are the ``message`` and not raised."""
         with self._lock:
             try:
                 with open_dataset(self.path) as dataset:
                     self._look = self._seen(dataset)
             except SphframeError as error:
                 self._look = replace(self._look, status="unreadable", message=str(error))
-            except Exception as error:  # a file that is just being replaced fails in many ways; the next look is sound
+            except Exception as error:  # reading a file that is being replaced fails in many ways
                 message = f"the file cannot be read: {type(error).__name__}: {error}"
                 self._look = replace(self._look, status="unreadable", message=message)
             return self._look

@@ -1,4 +1,4 @@
-"""Analysis: pictures of a run. Needs matplotlib, which is imported on first use and never shows a window."""
+"""Analysis: pictures of a run. They need matplotlib, which is imported on first use and opens no window."""
 
 import math
 import os
@@ -46,18 +46,18 @@ def plot_run(
     reference: xr.DataArray | Sequence[xr.DataArray] | None = None,
     surface: bool = False,
 ) -> "Figure":
-    """Draw a run: the particles coloured by a field at several times, with the probes' histories and the energies.
+    """Draw a run: particles coloured by a field at several times, the pressure at the probes, and the energies.
 
     In 3-D the particles within one spacing of the vertical plane through the middle of the tank are shown. Circles
     mark the probes. A case without probes shows its gauges instead.
 
     Parameters
     ----------
-    dataset: the run, finished or still going.
+    dataset: the run, finished or in progress.
     path: where to save the picture; the suffix chooses the format (.png, .pdf, .svg).
     field: ``pressure``, ``speed`` or ``density``.
-    times: times in s; by default four, spread evenly over the run.
-    reference: one or several series of p/(rho0 g H) over t sqrt(g/H), drawn beside the probes.
+    times: times in s; by default four that are evenly distributed over the run.
+    reference: one or several series of p/(rho0 g H) over t sqrt(g/H), drawn together with the probes.
     surface: draw the free surface too, the highest fluid in each vertical column.
 
     Returns
@@ -92,7 +92,7 @@ def plot_run(
 
 
 def _panel_height(view: View, columns: int) -> float:
-    """Height of a panel in inches, of which there are ``columns`` side by side."""
+    """Height in inches of a panel, with ``columns`` panels side by side."""
     (x0, x1), (y0, y1) = view
     return min((_WIDTH - 1.6) / columns * (y1 - y0) / (x1 - x0) + 0.32, 4.0)
 
@@ -123,7 +123,7 @@ def _draw_panels(
 
 
 def _draw_series(figure: Any, dataset: xr.Dataset, reference: xr.DataArray | Sequence[xr.DataArray] | None) -> None:
-    """Draw the histories at probes or gauges, where the run has some, beside the energies."""
+    """Draw the series of probes or gauges, if the run has any, and the energies."""
     if "probe_pressure" in dataset or "gauge_elevation" in dataset:
         left, right = figure.subplots(1, 2, width_ratios=[1.7, 1.0], gridspec_kw={"wspace": 0.06})
         draw_histories(left, dataset, reference)
@@ -135,7 +135,7 @@ def _draw_series(figure: Any, dataset: xr.Dataset, reference: xr.DataArray | Seq
 def draw_histories(
     axes: "Axes", dataset: xr.Dataset, reference: xr.DataArray | Sequence[xr.DataArray] | None = None
 ) -> None:
-    """Draw the pressure at the probes over time, beside reference series; without probes the elevation at the gauges.
+    """Draw the pressure at the probes and reference series over time; without probes, the elevation at the gauges.
 
     Parameters
     ----------
@@ -183,7 +183,7 @@ def _draw_energies(axes: "Axes", dataset: xr.Dataset) -> None:
 
 
 def _from_start(t: "np.ndarray[Any, np.dtype[np.float64]]") -> tuple[float, float]:
-    """Limits of a time axis that are apart, however short the run."""
+    """Limits of the time axis, which differ even for a run of one sample."""
     return 0.0, float(t[-1]) if t[-1] > 0.0 else 1.0
 
 

@@ -1,4 +1,4 @@
-"""Analysis: reference series that the user keeps in a folder."""
+"""Analysis: reference series in a folder of the user."""
 
 import os
 import re
@@ -20,7 +20,7 @@ def read_reference_series(folder: str | os.PathLike[str], name: str, column: int
 
     Parameters
     ----------
-    folder: where the user keeps reference data; none comes with sphframe.
+    folder: the user's reference data; sphframe contains none.
     name: name of the file, without ``.csv``.
     column: number (the coordinate is 0) or name of the column to read.
 
@@ -69,7 +69,7 @@ def read_reference_series(folder: str | os.PathLike[str], name: str, column: int
 
 
 def references_for(dataset: xr.Dataset, source: str | os.PathLike[str]) -> list[xr.DataArray]:
-    """Read the reference series that belong to the probes of a run.
+    """Read the reference series for the probes of a run.
 
     Parameters
     ----------
@@ -89,6 +89,6 @@ def references_for(dataset: xr.Dataset, source: str | os.PathLike[str]) -> list[
     if not names:
         raise InputError(
             f"{source} holds no series for a probe of this run ({', '.join(sorted(probes)) or 'it has none'}): name a"
-            " file, or call it after the probe, such as measured_P1.csv"
+            " file, or give it the name of the probe, as in measured_P1.csv"
         )
     return [read_reference_series(source, name) for name in names]

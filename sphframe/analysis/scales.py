@@ -1,4 +1,4 @@
-"""Analysis: the scales that make a run's numbers dimensionless, and its state of rest."""
+"""Analysis: scales for dimensionless quantities of a run, and its state of rest."""
 
 import json
 import math
@@ -25,7 +25,8 @@ def time_scale(dataset: xr.Dataset) -> float:
 def rest_pressure(dataset: xr.Dataset, height: ArrayLike) -> NDArray[np.float64]:
     """Pressure at rest in Pa at ``height`` (m) above the bed: rho0 c0^2 (exp(g (H - y)/c0^2) - 1), at least 0.
 
-    Holds for the linear equation of state; for Tait's it is right to (g H / c0^2)^2, 6e-6 at c0 = 20 sqrt(g H).
+    It is exact for the linear equation of state. For Tait's equation the relative error is of the
+    order of (g H / c0^2)^2, 6e-6 at c0 = 20 sqrt(g H).
     """
     attributes = dataset.attrs
     c2 = attributes["sound_speed"] ** 2
@@ -34,6 +35,6 @@ def rest_pressure(dataset: xr.Dataset, height: ArrayLike) -> NDArray[np.float64]
 
 
 def case_of(dataset: xr.Dataset) -> dict[str, Any]:
-    """Parameters of the case that was run, by name."""
+    """Return the parameters of the case that was run, by name."""
     parameters: dict[str, Any] = json.loads(dataset.attrs["case_parameters"])
     return parameters

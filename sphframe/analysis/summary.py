@@ -1,4 +1,4 @@
-"""Analysis: what happened in a run, in a few numbers."""
+"""Analysis: key figures of a run."""
 
 from typing import Any
 
@@ -23,11 +23,11 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
     - ``time``, ``steps``, ``wall_clock``, ``steps_per_second``, ``particle_updates_per_second``;
     - ``energy_excess``: largest total energy over its initial value, minus 1; ``mass_drift``: largest relative change
       of the mass;
-    - ``particles_outside``: the most seen behind a wall in a frame;
-    - ``particles_removed``: how many left the domain; ``densities_outside``: the most in a sample whose density lies
-      outside the guards' band;
-    - ``statuses``: share of each interpolation status among all ghosts and samples;
-    - ``peaks``: for each probe its ``pressure``, ``time``, and both over rho0 g H and sqrt(H/g);
+    - ``particles_outside``: largest number of particles behind walls in a frame;
+    - ``particles_removed``: number of particles that left the domain; ``densities_outside``: largest number in a sample
+      with a density outside the band of the guards;
+    - ``statuses``: share of each interpolation status, over all ghosts and samples;
+    - ``peaks``: largest ``pressure`` at each probe and its ``time``, also divided by rho0 g H and sqrt(H/g);
     - ``front_arrival``: see :func:`front_arrival`; None where the case has no front.
     """
     result = _of_the_case(dataset) | {"time": 0.0, "steps": 0, "wall_clock": 0.0}
@@ -51,7 +51,7 @@ def _of_the_case(dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def _of_the_samples(dataset: xr.Dataset) -> dict[str, Any]:
-    """What a run with at least one sample has sampled."""
+    """Key figures from the samples of a run that has at least one."""
     last = dataset.isel(probe_time=-1)
     wall_clock, steps = float(last["wall_clock"]), int(last["step"])
     energy, mass = dataset["total_energy"].values, dataset["mass"].values
@@ -75,10 +75,10 @@ def _of_the_samples(dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def front_arrival(dataset: xr.Dataset) -> dict[str, float] | None:
-    """When the surge front reaches the far wall: ``time`` in s and ``dimensionless`` t sqrt(g/H).
+    """Return when the surge front reaches the far wall: ``time`` in s and ``dimensionless`` t sqrt(g/H).
 
-    The front is there once ``front_position`` is within one particle spacing of the rightmost point of the walls,
-    interpolated between samples. None when the case has no ``front_position`` or the front never arrives.
+    The front has arrived when ``front_position`` is within one particle spacing of the rightmost point of the walls,
+    interpolated between samples. It is None if the case has no ``front_position`` or the front does not arrive.
     """
     if "front_position" not in dataset or dataset.sizes["probe_time"] == 0:
         return None
@@ -112,13 +112,13 @@ def _peaks(dataset: xr.Dataset) -> dict[str, dict[str, float]]:
 
 
 def concerns(*, outside: int, removed: int, densities: int, statuses: ArrayLike) -> list[str]:
-    """What a run counts that ought not to happen, in words; empty where all is well.
+    """Return texts about counted events that should not happen in a run; an empty list if there are none.
 
     Parameters
     ----------
-    outside: particles behind a wall; ``removed``: those that left the domain; ``densities``: those whose density lies
-        outside the guards' band.
-    statuses: (statuses,) number of ghosts by :class:`sphframe.Status`.
+    outside: particles behind walls; ``removed``: particles that left the domain; ``densities``: particles with a
+        density outside the band of the guards.
+    statuses: (statuses,) number of ghosts with each :class:`sphframe.Status`.
 
     Examples
     --------
@@ -130,7 +130,11 @@ def concerns(*, outside: int, removed: int, densities: int, statuses: ArrayLike)
     fallen = wet - int(counts[Status.OK])
     found = [
         f"{number:,} {'particle' if number == 1 else 'particles'} {what}"
-        for number, what in ((outside, "behind walls"), (removed, "removed"), (densities, "of odd density"))
+        for number, what in (
+            (outside, "behind walls"),
+            (removed, "removed"),
+            (densities, "with a density out of range"),
+        )
         if number
     ]
     return [*found, f"{100 * fallen / wet:.2g} % of wet ghosts by fallback"] if fallen else found

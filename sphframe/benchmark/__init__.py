@@ -1,4 +1,4 @@
-"""Benchmark: measures speed, memory and start-up, so that figures of different machines and versions compare."""
+"""Benchmark: measurements of speed, memory and start-up that are comparable between machines and versions."""
 
 from sphframe.benchmark.report import SECTIONS, Report, bench, check_request
 

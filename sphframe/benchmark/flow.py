@@ -1,4 +1,4 @@
-"""Benchmark: the flow that everything is measured on: the paper's dam break, of any size, at rest or developed."""
+"""Benchmark: the flow of all measurements: the dam break of the paper, of any size, at rest or developed."""
 
 import math
 import warnings
@@ -12,15 +12,15 @@ from sphframe.simulation import Simulation
 __all__ = ["DEVELOPED", "dam_break", "run_to_developed_flow", "warm_up"]
 
 DEVELOPED = 5.0
-"""t sqrt(g/H) at which the flow counts as developed: the water has run up the wall and falls back"""
+"""t sqrt(g/H) from which the flow counts as developed: the water has run up the wall and falls back"""
 _WARM_UP = 3
 
 
 def dam_break(particles: int, dim: int, **parameters: Any) -> DamBreak:
     """Return the paper's dam break with about ``particles`` fluid particles.
 
-    In 2-D with the paper's Courant number at every size; in 3-D with the case's own time step and smoothing length,
-    1.1 spacings.
+    In 2-D the Courant number is that of the paper for every size. In 3-D the time step is the default of the case, and
+    the smoothing length is 1.1 spacings.
 
     Examples
     --------
@@ -34,20 +34,20 @@ def dam_break(particles: int, dim: int, **parameters: Any) -> DamBreak:
     if dim == 3:
         own |= {"smoothing_length_ratio": 1.1, "time_step": None}
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", CaseWarning)  # of coarse ones
+        warnings.simplefilter("ignore", CaseWarning)  # about coarse cases
         case = load_case("dam-break", "paper", {**own, **parameters})
     assert isinstance(case, DamBreak)
     return case
 
 
 def warm_up(simulation: Simulation) -> None:
-    """Make the first steps, which compile, load and touch all that later ones use."""
+    """Make the first steps, which compile and load all loops and allocate all memory."""
     for _ in range(_WARM_UP):
         simulation.advance()
 
 
 def run_to_developed_flow(simulation: Simulation, tell: Callable[[float], None]) -> None:
-    """Run a dam break until the flow is developed, telling the part that is done."""
+    """Run a dam break until the flow is developed, and call ``tell`` with the part that is done after each step."""
     until = DEVELOPED * math.sqrt(simulation.scene.depth / simulation.case.gravity)
     while simulation.time < until:
         simulation.advance()

@@ -1,4 +1,4 @@
-"""Benchmark: measurements in a fresh process, where nothing is loaded, compiled or in memory yet."""
+"""Benchmark: measurements in a new process, in which nothing is loaded or compiled yet."""
 
 import json
 import os
@@ -14,7 +14,7 @@ __all__ = ["Fresh", "run_fresh"]
 
 
 class Fresh(NamedTuple):
-    """What a fresh process has printed, as JSON, and how long it took from its start to its end, s."""
+    """The JSON value that a new process has printed, and the time from its start to its end, s."""
 
     found: Any
     seconds: float
@@ -25,7 +25,7 @@ def run_fresh(code: str, environment: Mapping[str, str] | None = None) -> Fresh:
 
     Raises
     ------
-    SimulationError: when it fails.
+    SimulationError: the process fails.
     """
     began = time.perf_counter()
     done = subprocess.run(

@@ -1,4 +1,4 @@
-"""Benchmark: what times were measured on."""
+"""Benchmark: the machine and the software of a measurement."""
 
 import os
 import platform

@@ -25,10 +25,11 @@ class MemoryCost:
 
     Attributes
     ----------
-    arrays: of all arrays of the system, the neighbour lists, the boundary, and all else of the simulation.
+    arrays: of all arrays of the system, the neighbour lists, the boundary, and the rest of the simulation.
     total: their sum.
-    resident: growth of the process's peak resident set while it sets up and makes some steps, measured in a fresh
-        process; None where the operating system does not tell. Small cases are lost in what every process needs.
+    resident: growth of the process's peak resident set while it sets up and makes some steps, measured in a new
+        process; None where the operating system does not report it. It is inaccurate for small cases, whose memory
+        is small compared with that of any process.
     """
 
     dimension: int
@@ -40,9 +41,10 @@ class MemoryCost:
 
 
 def array_bytes(owner: object, counted: set[int] | None = None) -> int:
-    """Bytes of all arrays that ``owner`` holds, in objects of sphframe and in containers; a view counts as its base.
+    """Bytes of all arrays that ``owner`` holds, in objects of sphframe and in containers.
 
-    ``counted`` are the identities of what was counted before, and is added to.
+    A view counts as the array that it views. ``counted`` holds the identities of the objects that were counted before;
+    those counted here are added.
     """
     counted = set() if counted is None else counted
     if isinstance(owner, np.ndarray):
@@ -63,7 +65,7 @@ def array_bytes(owner: object, counted: set[int] | None = None) -> int:
 
 
 def measure_memory(particles: int, dim: int) -> MemoryCost:
-    """Measure the dam break of about ``particles`` particles in a fresh process."""
+    """Measure the dam break of about ``particles`` particles in a new process."""
     code = "import json; from sphframe.benchmark.memory import measure_here"
     found: Any = run_fresh(f"{code}; print(json.dumps(measure_here({particles}, {dim})))").found
     return MemoryCost(**found)
@@ -71,7 +73,7 @@ def measure_memory(particles: int, dim: int) -> MemoryCost:
 
 def measure_here(particles: int, dim: int) -> dict[str, Any]:
     """Measure in this process."""
-    warm_up(Simulation(dam_break(100, dim), threads=1))  # loads the loops, which take memory of their own
+    warm_up(Simulation(dam_break(100, dim), threads=1))  # loads the loops, which take memory themselves
     _forget_peak()
     before = _resident("VmRSS")
     simulation = Simulation(dam_break(particles, dim), threads=1)
@@ -98,7 +100,7 @@ def _forget_peak() -> None:
 
 
 def _resident(key: str) -> int | None:
-    """Bytes that Linux says of this process under ``key``."""
+    """Bytes that Linux reports for this process under ``key``; None on other systems."""
     if sys.platform != "linux":
         return None
     for line in Path("/proc/self/status").read_text(encoding="ascii").splitlines():

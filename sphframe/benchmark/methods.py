@@ -1,4 +1,4 @@
-"""Benchmark: what each interpolation method costs, alone and within a step, on the same state."""
+"""Benchmark: cost of each interpolation method, alone and within a step, on the same state."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -20,16 +20,16 @@ from sphframe.simulation import Simulation
 __all__ = ["MethodCost", "Side", "measure_methods", "side_by_side", "wet_points"]
 
 _STEPS = 8
-"""steps timed at once: among them is the share of those that search for neighbours anew"""
+"""steps that are timed together, so that neighbour searches have their average share"""
 _SHORTEST = 0.004
-"""s: what is timed at once, so that the clock's resolution does not matter"""
+"""s: shortest time that is measured at once; the resolution of the clock is much smaller"""
 
 
 @dataclass(frozen=True)
 class Side:
-    """Methods side by side: (methods, repeats) s for filling all ghosts once and for one whole step.
+    """Comparison of methods: times (methods, repeats) in s of filling all ghosts once and of one whole step.
 
-    ``busy``: how much longer the wall's time was than the processor's.
+    ``busy``: ratio of elapsed time to processor time.
     """
 
     simulations: Mapping[str, Simulation]
@@ -40,9 +40,9 @@ class Side:
 
 @dataclass(frozen=True)
 class MethodCost:
-    """One thread, processor's time, in s: filling all ghosts once, a whole step.
+    """Processor times in s with one thread: ``fill`` all ghosts once, and a whole ``step``.
 
-    ``point``: interpolating to one wet point; ``share``: that of the boundary in a step.
+    ``point``: time of the interpolation to one wet point; ``share``: of the boundary in the time of a step.
     """
 
     method: str
@@ -60,9 +60,8 @@ def side_by_side(
 ) -> Side:
     """Time cases that differ in their boundary from the same ``state``, with one thread.
 
-    Compilation and the first steps are not timed. The cases take turns in each repeat, so that whatever else the
-    machine does falls on all alike. The time is that of the processor, which on a quiet machine is the time on the
-    wall.
+    Compilation and the first steps are not timed. The cases alternate in each repeat, so that other processes on
+    the machine affect all of them equally. Times are processor times, which on an idle machine are the elapsed times.
     """
     simulations = {}
     for label, case in cases.items():

@@ -1,4 +1,4 @@
-"""Benchmark: what the machine can do at best, measured: multiply-adds and memory."""
+"""Benchmark: measured peak rates of the machine: multiply-adds and reading from memory."""
 
 import time
 from dataclasses import dataclass
@@ -12,10 +12,10 @@ from sphframe.compiled import fma, local_array
 __all__ = ["Peak", "measure_peak"]
 
 _CHAINS = 128
-"""numbers that are multiplied and added to independently: enough to keep all pipelines busy"""
+"""numbers that are multiplied and added to independently: enough to fill all pipelines"""
 _ROUNDS = 1_000_000
 _STREAM = 1 << 24
-"""numbers read at a time, 134 MB: more than any cache holds"""
+"""numbers that are read in one pass, 134 MB: more than any cache holds"""
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Peak:
 
 
 def measure_peak(repeats: int) -> Peak:
-    """Measure both, one sample a repeat."""
+    """Measure both, one sample per repeat."""
     values = np.ones((_STREAM // _CHAINS, _CHAINS))
     _multiply_add(1)
     _read(values[:1])

@@ -1,9 +1,8 @@
-"""Benchmark: bare loops, the yardstick that goes with each machine.
+"""Benchmark: two simple loops, whose time on a machine is the reference for that of the solver.
 
-A pair of plain loops over a plain list of neighbours for each particle, with rows of eight numbers, 64 bytes, in two
-dimensions: the density gradient, and the rates by continuity with diffusion and momentum. Nothing else: no search, no
-skin, no boundary, no pressure. They compute the same numbers as the solver, and show what the machine does with code
-that is written straightforwardly.
+The loops go over one list of neighbours per particle, with rows of eight numbers (64 bytes), in two dimensions. One
+computes the density gradient, the other the rates of continuity, with diffusion, and of momentum. They contain no
+neighbour search, no skin, no boundary and no equation of state. They compute the same numbers as the solver.
 """
 
 from functools import cached_property
@@ -26,7 +25,7 @@ class BareLoops:
 
     Attributes
     ----------
-    order: (n,) numbers of the fluid particles, of which row i holds ``order[i]``: they are in spatial order.
+    order: (n,) numbers of the fluid particles in spatial order; row i holds the particle ``order[i]``.
     gradient: (n, 2) density gradient, kg/m^4; ``rates`` (n, 3) accelerations, m/s^2, and density rate, kg/(m^3 s).
     """
 
@@ -82,7 +81,7 @@ def _neighbours(
 
 
 _FREE_SUMS = {"contract", "reassoc", "nsz"}
-"""lets the compiler choose the order of sums, without which it does not vectorise the loops"""
+"""the compiler may choose the order of sums; otherwise it does not vectorise the loops"""
 
 
 @numba.njit(parallel=True, cache=True, error_model="numpy", fastmath=_FREE_SUMS)
@@ -133,7 +132,7 @@ def _rates(rows, gradient, lists, fluid_counts, counts, per_h2, scale, diffusion
             compression += approach
             fx += stress * dx
             fy += stress * dy
-        for k in range(fluid_counts[i], counts[i]):  # ghosts: nothing diffuses through a wall
+        for k in range(fluid_counts[i], counts[i]):  # ghosts: no diffusion through walls
             dx, dy, weight, approach, stress = _pair(rows, i, lists[i, k], per_h2, scale, viscosity)
             compression += approach
             fx += stress * dx

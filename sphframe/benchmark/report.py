@@ -1,4 +1,4 @@
-"""Benchmark: all measurements in one report, as tables are made of it and as JSON keeps it."""
+"""Benchmark: all measurements in one report, from which tables and JSON are made."""
 
 import contextlib
 import dataclasses
@@ -22,7 +22,7 @@ __all__ = ["SECTIONS", "Report", "bench", "check_request"]
 numba: Any = typed_numba  # its settings have no types
 
 SECTIONS = ("peak", "rest", "developed", "3d", "methods", "memory", "start-up")
-"""what can be measured alone"""
+"""sections that can be chosen"""
 _FLOWS: tuple[tuple[str, int, State], ...] = (
     ("rest", 2, "rest"),
     ("developed", 2, "developed"),
@@ -35,7 +35,7 @@ _REPEATS = 7
 
 @dataclass(frozen=True)
 class Report:
-    """What was measured, on what, and with what."""
+    """All measurements, with the machine and the request."""
 
     machine: dict[str, str]
     particles: tuple[int, ...]
@@ -47,7 +47,7 @@ class Report:
     start_up: StartUp | None = None
 
     def as_data(self) -> dict[str, Any]:
-        """Return all of it for JSON: times in s, memory in bytes; each :class:`Spread` with its samples."""
+        """Return all data for JSON: times in s, memory in bytes; each :class:`Spread` with its samples."""
         return {"format": FORMAT, **{f.name: _data(getattr(self, f.name)) for f in dataclasses.fields(self)}}
 
 
@@ -63,7 +63,7 @@ def _data(value: Any) -> Any:
 
 
 def _machine() -> dict[str, str]:
-    """What all was measured on, the threading layer included once a parallel loop has run."""
+    """The machine, and after a parallel loop has run also the threading layer."""
     found = {**machine(), "threads at most": str(numba.config.NUMBA_NUM_THREADS)}
     with contextlib.suppress(ValueError):
         found["threading layer"] = numba.threading_layer()
@@ -71,11 +71,11 @@ def _machine() -> dict[str, str]:
 
 
 def check_request(particles: Sequence[int], threads: Sequence[int], only: Collection[str]) -> None:
-    """Check what is asked for, before anything is measured.
+    """Check the request before anything is measured.
 
     Raises
     ------
-    InputError: when a number is out of bounds or a section is unknown.
+    InputError: a number is out of bounds or a section is unknown.
     """
     for count in particles:
         if count < _FEWEST:
@@ -97,7 +97,7 @@ def bench(
     repeats: int = _REPEATS,
     tell: Callable[[str, float | None], None] = lambda text, part: None,
 ) -> Report:
-    """Measure what sphframe costs on this machine.
+    """Measure the speed, memory and start-up of sphframe on this machine.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def bench(
     threads: numbers of threads; by default 1 and, where there are as many, 2.
     only: some of :data:`SECTIONS`; by default all, with developed flow up to 50,000 particles.
     repeats: samples of each time.
-    tell: is told what is being done and the part of it that is done, if known.
+    tell: called with the name of the present measurement and the part of it that is done, if known.
 
     Raises
     ------

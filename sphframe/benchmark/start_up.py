@@ -1,4 +1,4 @@
-"""Benchmark: how long it takes until the first step."""
+"""Benchmark: time until the end of the first step."""
 
 import tempfile
 from collections.abc import Callable
@@ -30,13 +30,13 @@ print(json.dumps(time.perf_counter() - began))
 
 @dataclass(frozen=True)
 class StartUp:
-    """Times in s, each in a fresh process.
+    """Times in s, each measured in a new process.
 
     Attributes
     ----------
     libraries: import of NumPy and Numba; ``sphframe``: import of sphframe after them.
     first_compile: from nothing imported to the end of the first step of the dam break, with an empty compiler cache;
-        ``cached``: the same with a full one; ``cached_process``: that with the start and the end of Python.
+        ``cached``: the same with a full cache; ``cached_process``: ``cached`` with the start and the end of Python.
     """
 
     libraries: Spread

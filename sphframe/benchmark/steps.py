@@ -1,4 +1,4 @@
-"""Benchmark: what a right-hand side costs, and where its time goes."""
+"""Benchmark: time of a right-hand side and of its parts."""
 
 import tempfile
 from collections.abc import Callable, Sequence
@@ -21,26 +21,26 @@ __all__ = ["State", "StepCost", "measure_steps"]
 State = Literal["rest", "developed"]
 
 _WINDOW = 0.4
-"""s: aim for the length of a window of steps that are timed at once"""
+"""s: intended time of a window of steps that are timed together"""
 _FEWEST_STEPS, _MOST_STEPS = 12, 50
-"""in a window: enough for the share of lists in developed flow, and so few that what starts at rest stays so"""
+"""in a window: enough for the average share of neighbour searches, few enough that water at rest remains at rest"""
 _SHORTEST = 0.02
-"""s: what is timed at once, so that the clock's resolution does not matter"""
+"""s: shortest time that is measured at once; the resolution of the clock is much smaller"""
 
 
 @dataclass(frozen=True)
 class StepCost:
-    """Times in s on one state with one number of threads; a sample of each per repeat.
+    """Times in s on one state with one number of threads; one sample of each per repeat.
 
     Attributes
     ----------
-    evaluations: of the rates, in a step; ``steps``: in a window; ``builds``: of the lists, in a window.
-    whole: one step with its share of lists and output; ``parts``: what it is the sum of. They belong to a
+    evaluations: of the rates per step; ``steps``: per window; ``builds``: of the neighbour lists per window.
+    whole: one step with its share of neighbour searches and output, the sum of the ``parts``; averages over a
         window of steps.
     rate: fluid-particle right-hand sides per second, of the whole.
-    list_build: building the lists once; ``sample``, ``frame``: writing one of the output.
-    evaluation: all rates once, ghosts included, with its share of lists.
-    bare_gradient, bare_rates: the reference loops, and ``ratio`` the evaluation over both; None in 3-D.
+    list_build: building the lists once; ``sample``, ``frame``: writing one sample, one frame.
+    evaluation: all rates once, ghosts included, with its share of neighbour searches.
+    bare_gradient, bare_rates: the reference loops; ``ratio``: evaluation over the sum of both; None in 3-D.
     """
 
     dimension: int
@@ -75,13 +75,13 @@ def measure_steps(
     """Measure the dam break of about ``particles`` particles with each number of ``threads``.
 
     Every window of steps starts from the same state, so all make the same steps and build the same lists. In each
-    repeat all numbers of threads and all that is compared take turns: whatever else the machine does falls on all
-    alike.
+    repeat the numbers of threads and the compared functions alternate, so that other processes on the machine affect
+    all of them equally.
     """
     label = f"{dim}-D, {particles:,} particles"
     tell(f"{label}: setting up", None)
     case = dam_break(particles, dim)
-    # the file is planned for few frames; the cost of one is shared out by the interval of the paper's preset
+    # the file has room for few frames; the cost of one is divided by the frame interval of the paper's preset
     simulation = Simulation(case.model_copy(update={"frame_interval": case.until}), threads=max(threads))
     warm_up(simulation)
     if state == "developed":
@@ -99,7 +99,7 @@ def measure_steps(
 
 
 class _Bench:
-    """All that is timed on one state."""
+    """The measurements on one state."""
 
     def __init__(self, simulation: Simulation, frame_interval: float, folder: Path) -> None:
         self.simulation = simulation
@@ -114,8 +114,8 @@ class _Bench:
         self._writer = NetCDFWriter(folder / "bench.nc")
         self._writer.sphframe_run_started(simulation)
         bare = BareLoops(simulation) if simulation.case.dimension == 2 else None
-        # the evaluation beside the loops that it is compared with; output last, as libraries that it uses may keep
-        # their own threads spinning for a while
+        # the evaluation next to the loops with which it is compared; output last, as its libraries may keep threads
+        # of their own busy for a while
         self._alone: dict[str, Callable[[], object]] = {
             "evaluation": lambda: simulation.system.evaluate(simulation.time)
         }
@@ -132,7 +132,7 @@ class _Bench:
         self._writer.sphframe_run_finished(self.simulation)
 
     def sample(self, threads: int) -> None:
-        """Take one sample of everything, with the ``threads`` that are set."""
+        """Take one sample of each measurement with the ``threads`` that are set."""
         found = self.found.setdefault(threads, {})
         self.simulation.restore(self.state)
         self.watch.reset()
@@ -154,7 +154,7 @@ class _Bench:
         self._writer.sphframe_frame_due(simulation)
 
     def cost(self, threads: int, state: State) -> StepCost:
-        """Return what the samples with ``threads`` say."""
+        """Return the times of all samples with ``threads``."""
         simulation = self.simulation
         found = {name: Spread(tuple(values)) for name, values in self.found[threads].items()}
         parts = {part: found[part] for part in (*PARTS, "output")}

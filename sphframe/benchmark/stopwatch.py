@@ -1,4 +1,4 @@
-"""Benchmark: how the time of a step is shared out, measured from outside."""
+"""Benchmark: times of the parts of a step, measured without changes in the solver."""
 
 import time
 from collections import Counter
@@ -10,14 +10,14 @@ from sphframe.simulation import Simulation
 __all__ = ["PARTS", "Stopwatch", "watch_steps"]
 
 PARTS = ("neighbour list", "boundary", "continuity", "momentum and gradient", "integration")
-"""parts of a step; the density gradient is found together with the accelerations, integration is all else"""
+"""parts of a step; the density gradient is computed together with the accelerations; integration is all the rest"""
 
 
 class Stopwatch:
-    """Shares the time of watched methods out among named parts.
+    """Adds up the time of watched methods by named parts.
 
-    A method's time is its own: what watched methods take that it calls counts for their parts, so that all parts
-    together are exactly the time of the outermost calls.
+    The time of a method excludes that of the watched methods that it calls, which counts for their parts. So the sum
+    of all parts is exactly the time of the outermost calls.
 
     Parameters
     ----------
@@ -35,12 +35,12 @@ class Stopwatch:
         self._within = 0
 
     def reset(self) -> None:
-        """Start anew."""
+        """Set all times and counts to zero."""
         self.spent.clear()
         self.calls.clear()
 
     def watch(self, owner: object, method: str, part: str) -> None:
-        """Count the time of ``owner.method`` for ``part``; only this object's method is replaced."""
+        """Add the time of ``owner.method`` to ``part``; only the method of this object is replaced."""
         function = getattr(owner, method)
 
         def timed(*arguments: Any, **named: Any) -> Any:

@@ -1,4 +1,4 @@
-"""Benchmark: times of repeated calls, with their scatter."""
+"""Benchmark: times of repeated calls and their spread."""
 
 import statistics
 import time
@@ -10,7 +10,7 @@ __all__ = ["Spread", "loops_for", "seconds"]
 
 @dataclass(frozen=True)
 class Spread:
-    """Repeats of one measurement.
+    """The samples of a repeated measurement.
 
     Examples
     --------
@@ -23,21 +23,21 @@ class Spread:
 
     @property
     def minimum(self) -> float:
-        """The lowest."""
+        """The smallest sample."""
         return min(self.samples)
 
     @property
     def median(self) -> float:
-        """The middle one."""
+        """The median of the samples."""
         return statistics.median(self.samples)
 
     @property
     def maximum(self) -> float:
-        """The highest."""
+        """The largest sample."""
         return max(self.samples)
 
     def over(self, other: "Spread") -> "Spread":
-        """Return the ratios of samples that were taken together, on which noise cancels."""
+        """Return the ratios of samples that were taken together, in which common noise cancels."""
         return Spread(tuple(a / b for a, b in zip(self.samples, other.samples, strict=True)))
 
     def plus(self, other: "Spread") -> "Spread":
@@ -54,7 +54,7 @@ class Spread:
 
 
 def seconds(function: Callable[[], object], loops: int = 1, clock: Callable[[], float] = time.perf_counter) -> float:
-    """Time of one call by ``clock``, s, from ``loops`` calls at once."""
+    """Return the mean time of one call in s, from ``loops`` calls that are timed together by ``clock``."""
     began = clock()
     for _ in range(loops):
         function()
@@ -62,6 +62,6 @@ def seconds(function: Callable[[], object], loops: int = 1, clock: Callable[[], 
 
 
 def loops_for(function: Callable[[], object], shortest: float, clock: Callable[[], float] = time.perf_counter) -> int:
-    """How often to call ``function`` at once, so that it takes at least about ``shortest`` s."""
+    """Return the number of calls of ``function`` that take at least about ``shortest`` s together."""
     once = statistics.median(seconds(function, 1, clock) for _ in range(3))
     return max(1, round(shortest / max(once, 1e-7)))

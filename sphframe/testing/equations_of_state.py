@@ -32,10 +32,10 @@ def check_inverse(state: EquationOfState) -> None:
 
 
 def check_pressure_rises(state: EquationOfState) -> None:
-    """P rises with rho."""
+    """The pressure increases with the density."""
     pressure = state.pressure_function()
     values = [pressure(rho, 1000.0, 40.0) for rho in _DENSITIES]
-    require(bool(np.all(np.diff(values) > 0.0)), f"{title(state)}: p does not rise with rho: {values} Pa")
+    require(bool(np.all(np.diff(values) > 0.0)), f"{title(state)}: p does not increase with rho: {values} Pa")
 
 
 def check_sound_speed(state: EquationOfState) -> None:
@@ -56,7 +56,7 @@ def check_sound_speed(state: EquationOfState) -> None:
 
 
 def check_compiles(state: EquationOfState) -> None:
-    """Compiled and plain Python agree."""
+    """The compiled functions and plain Python return the same values."""
     pressure = state.pressure_function()
     for function, argument in (
         (pressure, 1003.0),

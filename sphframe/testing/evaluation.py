@@ -1,4 +1,4 @@
-"""Testing: the weights of a method on one cloud, by the compiled loop that :func:`operator` uses."""
+"""Testing: the weights of a method on one cloud, computed by the compiled loop that :func:`operator` uses."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a method answered: its weights (n,), after the fallback where the status is not OK, and the status."""
+    """The result of a method: its status, and the weights (n,); those of the fallback where the status is not OK."""
 
     weights: Array
     status: int
@@ -50,7 +50,10 @@ def evaluate(method: BoundaryInterpolator, cloud: Cloud, kernel: str | Kernel = 
 def evaluator(
     method: BoundaryInterpolator, dim: int, kernel: str | Kernel = "gaussian", *, garbage: float = np.nan
 ) -> Evaluate:
-    """Return the function that evaluates ``method`` on clouds of ``dim`` dimensions, given ``out`` full of garbage."""
+    """Return the function that evaluates ``method`` on clouds of ``dim`` dimensions.
+
+    Each entry of ``out`` has the value ``garbage`` before the weights are computed.
+    """
     chosen = create("kernels", kernel) if isinstance(kernel, str) else kernel
     loop = weights_loop(method, chosen, dim)
     normalisation = chosen.normalisation(dim)
@@ -70,7 +73,7 @@ def evaluator(
 
 
 def plain_evaluator(method: BoundaryInterpolator, dim: int, kernel: str = "gaussian") -> Evaluate:
-    """Return the same as :func:`evaluator`, run by the Python interpreter; weights of a point not OK are not filled."""
+    """Return the same as :func:`evaluator`, run by the Python interpreter and without the fallback."""
     chosen = create("kernels", kernel)
     value = chosen.value_function()
     functions = CompiledKernel(
@@ -96,11 +99,11 @@ def plain_evaluator(method: BoundaryInterpolator, dim: int, kernel: str = "gauss
 
 
 def extrapolates(method: BoundaryInterpolator) -> bool:
-    """Whether the method is given a lift."""
+    """Whether the method extrapolates along a lift, from the evaluation point to the ghost."""
     return method.traits.evaluation_point is EvaluationPoint.EXTRAPOLATED
 
 
 def title(component: Any) -> str:
-    """The component as code, shortened: what the messages call it."""
+    """The component as code, shortened; messages name the component so."""
     text = repr(component)
     return f"{type(component).__name__}()" if text.startswith("<") else text

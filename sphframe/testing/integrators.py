@@ -46,7 +46,7 @@ class Oscillator:
         self._rates[1] = -self.rho
 
     def hold(self) -> None:
-        """Remember the present state."""
+        """Store the present state as y0."""
         self._start = np.array([self.x, self.u, self.rho])
         self._total = np.zeros(3)
 
@@ -84,7 +84,7 @@ def _integrate(integrator: Integrator, steps: int, time: float, forcing: float =
 
 
 def check_order(integrator: Integrator) -> None:
-    """The error on a forced acoustic mode, in position, velocity and density, falls with the declared order."""
+    """The errors of position, velocity and density of a forced acoustic mode decrease with the declared order."""
     for name, k in (("position", 0), ("velocity", 1), ("density", 2)):
         errors = []
         for steps in (40, 80):
@@ -93,21 +93,21 @@ def check_order(integrator: Integrator) -> None:
         measured = math.log2(errors[0] / errors[1]) if errors[1] > 0.0 else math.inf
         require(
             measured > integrator.order - 0.4,
-            f"{title(integrator)}: the {name} converges with order {measured:.2f}, and order says {integrator.order}",
+            f"{title(integrator)}: the {name} converges with order {measured:.2f}, but order is {integrator.order}",
         )
 
 
 def check_evaluations(integrator: Integrator) -> None:
-    """The rates are evaluated as often per step as declared."""
+    """The number of evaluations of the rates per step is the declared one."""
     counted = _integrate(integrator, 10, 1.0).evaluations / 10
     require(
         counted == integrator.evaluations,
-        f"{title(integrator)}: {counted:g} evaluations a step, and evaluations says {integrator.evaluations}",
+        f"{title(integrator)}: {counted:g} evaluations per step, but evaluations is {integrator.evaluations}",
     )
 
 
 def check_energy(integrator: Integrator) -> None:
-    """The energy of an acoustic mode neither grows nor decays by more than 1 % in a hundred periods of 60 steps."""
+    """The energy of an acoustic mode changes by less than 1 % in a hundred periods of 60 steps."""
     end = _integrate(integrator, 6000, 200.0 * math.pi)
     energy = end.rho**2 + end.u**2
     require(
@@ -117,7 +117,7 @@ def check_energy(integrator: Integrator) -> None:
 
 
 def check_time_reversal(integrator: Integrator) -> None:
-    """Where ``time_reversible`` is set: run backwards in time, the acoustic mode returns to its start."""
+    """With ``time_reversible``, an acoustic mode integrated backwards in time returns to its start."""
     if not getattr(integrator, "time_reversible", False):
         return
     system = _integrate(integrator, 50, 5.0)
@@ -126,7 +126,7 @@ def check_time_reversal(integrator: Integrator) -> None:
     back = (system.x, system.u, system.rho)
     require(
         bool(np.allclose(back, (1.0, 0.0, 1.0), atol=1e-10)),
-        f"{title(integrator)}: it says time_reversible, but returns to x, u, rho = {back}, not to 1, 0, 1",
+        f"{title(integrator)}: it declares time_reversible, but returns to x, u, rho = {back}, not to 1, 0, 1",
     )
 
 

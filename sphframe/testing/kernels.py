@@ -20,12 +20,12 @@ def check_unit_integral(kernel: Kernel) -> None:
         integral = kernel.normalisation(dim) * _integral(value, dim - 1, kernel.support) * sphere
         require(
             abs(integral - 1.0) < 1e-9,
-            f"{title(kernel)}: the integral of W in {dim}-D is {integral:.12g}, not 1: mend normalisation({dim})",
+            f"{title(kernel)}: the integral of W in {dim}-D is {integral:.12g}, not 1: correct normalisation({dim})",
         )
 
 
 def check_moments(kernel: Kernel) -> None:
-    """The second moment is positive and below that of all mass at the cut-off: W is a smoothing kernel."""
+    """The second moment is positive and less than with all mass at the cut-off radius: W is a smoothing kernel."""
     value = kernel.value_function()
     for dim, sphere in ((1, 2.0), (2, 2.0 * math.pi), (3, 4.0 * math.pi)):
         moment = kernel.normalisation(dim) * _integral(value, dim + 1, kernel.support) * sphere
@@ -52,7 +52,7 @@ def check_gradient(kernel: Kernel) -> None:
     centre = factor(0.0)
     require(
         math.isfinite(centre) and abs(centre - factor(1e-4)) < 1e-3 * abs(centre),
-        f"{title(kernel)}: the gradient function is {centre} at q = 0 and {factor(1e-4)} beside it; return the"
+        f"{title(kernel)}: the gradient function is {centre} at q = 0 and {factor(1e-4)} at q = 0.0001; return the"
         f" limit w''(0)",
     )
     of_square = kernel.gradient_of_square_function()
@@ -65,7 +65,7 @@ def check_gradient(kernel: Kernel) -> None:
 
 
 def check_compact_support(kernel: Kernel) -> None:
-    """The value falls to zero at the cut-off."""
+    """The value decreases to zero at the cut-off."""
     value = kernel.value_function()
     edge = value(kernel.support * (1.0 - 1e-9))
     require(
@@ -75,17 +75,17 @@ def check_compact_support(kernel: Kernel) -> None:
 
 
 def check_monotone(kernel: Kernel) -> None:
-    """The value is positive and falls from the centre to the cut-off."""
+    """The value is positive and decreases from the centre to the cut-off."""
     value = kernel.value_function()
     q = np.linspace(0.0, 0.9999, 400) * kernel.support
     values = np.array([value(x) for x in q])
     require(bool(np.all(values > 0.0)), f"{title(kernel)}: w is not positive at q = {q[np.argmin(values)]:.6g}")
     rises = np.flatnonzero(np.diff(values) >= 0.0)
-    require(not len(rises), f"{title(kernel)}: w does not fall at q = {q[rises[0]] if len(rises) else 0.0:.6g}")
+    require(not len(rises), f"{title(kernel)}: w does not decrease at q = {q[rises[0]] if len(rises) else 0.0:.6g}")
 
 
 def check_compiles(kernel: Kernel) -> None:
-    """Compiled and plain Python agree."""
+    """The compiled functions and plain Python return the same values."""
     for function in (kernel.value_function(), kernel.gradient_function(), kernel.gradient_of_square_function()):
         compiled = compile_part(function)
         for q in np.linspace(0.0, 0.999, 37) * kernel.support:

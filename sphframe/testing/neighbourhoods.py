@@ -1,7 +1,8 @@
-"""Testing: neighbourhoods of one evaluation point, built and never filtered.
+"""Testing: neighbourhoods of one evaluation point, constructed instead of filtered from random ones.
 
-Each family is a recipe for one kind of trouble: a wall on one side, a thin sheet, spray, points on one line, points
-that coincide, points at the cut-off. Lengths are in particle spacings here; a cloud may be scaled to any spacing.
+Each family is a recipe for one kind of difficult neighbourhood: a wall on one side, a thin sheet, spray, points on one
+line, points that coincide, points at the cut-off. Lengths are in particle spacings; a cloud can be scaled to any
+spacing.
 """
 
 from collections.abc import Callable, Sequence
@@ -81,7 +82,7 @@ class Cloud:
         )
 
     def members(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> "Cloud":
-        """Return the cloud of the particles in ``index`` alone, in that order."""
+        """Return the cloud that holds only the particles in ``index``, in that order."""
         return self.changed(self.offsets[index], self.volumes[index])
 
     def scaled(self, factor: float) -> "Cloud":
@@ -91,7 +92,7 @@ class Cloud:
         ).clear_of_cut_off(0.0)
 
     def clear_of_cut_off(self, margin: float) -> "Cloud":
-        """Return the cloud without the particles beyond (1 - margin) R; the nearest one always stays."""
+        """Return the cloud without the particles beyond (1 - margin) R; the nearest particle is always kept."""
         r = self.distances
         keep = r < (1.0 - margin) * self.support
         if not keep.any():
@@ -167,7 +168,7 @@ def _collinear(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array
 
 
 def _nearly_collinear(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
-    """A line (plane) beside the point, thickened: as long as that goes unnoticed, weights grow without limit."""
+    """Points close to a line (plane) beside the point; a fit that does not refuse them has very large weights."""
     points = rng.uniform(-0.5, 0.5, (int(rng.integers(dim + 1, 10)), dim)) * radius
     points[:, -1] = 0.3 * radius + 10.0 ** rng.uniform(-7.0, -1.0) * rng.normal(size=len(points))
     return _even(rng, points @ _rotation(rng, dim).T)
@@ -183,7 +184,7 @@ def _conic(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Ar
 def _coincident(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
     points = _at_particle(rng, dim, radius)[0] if rng.random() < 0.5 else _ball(rng, dim, radius)
     nearest = np.argsort(np.sum(points**2, axis=1))[: int(rng.integers(1, 4))]
-    if rng.random() < 0.3:  # nothing else
+    if rng.random() < 0.3:  # only coincident particles
         points = points[nearest]
         nearest = np.arange(len(points))
     return _even(rng, np.concatenate([points, points[nearest]]))
@@ -244,9 +245,9 @@ FAMILIES: dict[str, Recipe] = {
 
 ALL = tuple(FAMILIES)
 REGULAR = ("full support", "one-sided", "corner", "varied volumes")
-"""well-conditioned, for every method that ships"""
+"""well-conditioned for every method of the project"""
 SPARSE = (*REGULAR, "thin sheet", "spray", "at a particle")
-"""also hard, but without points that nearly coincide or lie at the very cut-off"""
+"""also ill-conditioned ones, but without points that nearly coincide or lie at the cut-off"""
 
 
 def build(family: str, dim: int, seed: int, *, spacing: float = 1.0, ratio: float = 1.3, lifted: bool = False) -> Cloud:
@@ -268,7 +269,7 @@ def build(family: str, dim: int, seed: int, *, spacing: float = 1.0, ratio: floa
 
 def _cut(points: Array, volumes: Array, radius: float, rng: np.random.Generator, lifted: bool) -> Cloud:
     inside = np.sqrt(np.sum(points**2, axis=1)) < radius
-    if not inside.any():  # a recipe may leave the ball empty; a method is never given an empty one
+    if not inside.any():  # a recipe may give an empty ball, but methods are only called with neighbours
         points, volumes = 0.5 * radius * _direction(rng, points.shape[1])[None, :], np.ones(1)
         inside = np.ones(1, dtype=np.bool_)
     lift = rng.uniform(0.0, 3.0) * _direction(rng, points.shape[1]) if lifted else None
@@ -277,7 +278,7 @@ def _cut(points: Array, volumes: Array, radius: float, rng: np.random.Generator,
 
 @lru_cache(maxsize=64)
 def catalogue(dim: int, families: tuple[str, ...] = ALL, *, lifted: bool = False) -> tuple[Cloud, ...]:
-    """Return the fixed clouds that every check begins with: five of each family, and spray of 1 to 6 drops."""
+    """Return the fixed clouds with which every check begins: five of each family, and spray of 1 to 6 drops."""
     ratio = 1.3 if dim == 2 else 1.0
     found = [build(family, dim, seed, ratio=ratio, lifted=lifted) for family in families for seed in range(5)]
     if "spray" in families:
@@ -289,7 +290,7 @@ def catalogue(dim: int, families: tuple[str, ...] = ALL, *, lifted: bool = False
 
 
 def condition(cloud: Cloud, degree: int) -> float:
-    """Return how many times the geometry magnifies round-off in a method of the given degree.
+    """Return the factor by which the geometry magnifies round-off in a method of the given degree.
 
     It is the largest condition number of the moment matrices, columns scaled, of the polynomial basis with unit and
     with Gaussian weights about the evaluation point and, without the constant, about the nearest particle; infinite
@@ -308,7 +309,8 @@ def condition(cloud: Cloud, degree: int) -> float:
 def magnification(cloud: Cloud, degree: int) -> float:
     """Return sum |w_j| of a least-squares fit of a polynomial to the neighbours, with Gaussian weights.
 
-    It is what extrapolation costs: 1 in the middle of a symmetric neighbourhood, large far outside a neighbourhood.
+    It is the magnification of noise by extrapolation: 1 in the middle of a symmetric neighbourhood, large far outside a
+    neighbourhood.
     """
     _, basis, weights = _polynomials(cloud, degree)
     roots = np.sqrt(weights)

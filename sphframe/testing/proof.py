@@ -1,8 +1,8 @@
-"""Testing: the search for a cloud that breaks a promise, and the smallest one like it.
+"""Testing: search for a cloud on which a method lacks a property, and its reduction to a small one.
 
-A property is a function that looks at one cloud and returns what is wrong with it, or None. It is tried on the fixed
-catalogue, then on clouds that hypothesis draws; of a cloud that breaks it, particles are removed and numbers rounded
-for as long as it still does.
+A property is a function that takes a cloud and returns what is wrong with the method on it, or None. It is evaluated
+on the fixed catalogue and then on clouds that hypothesis draws. From a cloud on which it fails, particles are removed
+and numbers are rounded for as long as it still fails.
 """
 
 from collections.abc import Callable
@@ -22,7 +22,7 @@ Property = Callable[[Cloud], str | None]
 
 
 class BrokenPromiseError(AssertionError):
-    """When a component breaks a promise; the message says which, how, and on what."""
+    """A component violates its declared traits; the message says which one, how, and on which cloud."""
 
 
 def require(condition: bool, message: str) -> None:
@@ -53,10 +53,10 @@ def prove(
         if wrong_with(cloud) is not None:
             raise _failure(method, dim, promise, wrong_with, cloud) from None
 
-    # the catalogue has done most of the work: a quarter of the examples of the profile in force
+    # the catalogue finds most errors: a quarter of the examples of the profile in force suffices
     default = settings.default.max_examples if settings.default else 100
 
-    # no shrinking: seeds do not shrink to small clouds, smallest() does
+    # no shrinking: a smaller seed does not give a smaller cloud; smallest() reduces it
     @settings(
         max_examples=max(10, default // 4),
         deadline=None,
@@ -74,7 +74,7 @@ def prove(
     found: list[Cloud] = []
     try:
         search()
-    except (_FoundError, Flaky):  # flaky: wrong once, and not when tried again
+    except (_FoundError, Flaky):  # flaky: wrong once, and not in the second evaluation
         raise _failure(method, dim, promise, wrong_with, found[0]) from None
 
 
@@ -90,7 +90,7 @@ def smallest(cloud: Cloud, wrong_with: Property) -> Cloud:
         return False
 
     size = max(1, len(cloud) // 2)
-    while size >= 1:  # remove half, a quarter, ... one, for as long as something can be removed
+    while size >= 1:  # remove a half, a quarter, ..., one particle, for as long as particles can be removed
         removed = False
         first = 0
         while first < len(cloud) and len(cloud) > 1:
@@ -117,7 +117,7 @@ def _failure(
     method: BoundaryInterpolator, dim: int, promise: str, wrong_with: Property, cloud: Cloud
 ) -> BrokenPromiseError:
     cloud = smallest(cloud, wrong_with)
-    complaint = wrong_with(cloud) or "It was broken once, and not when tried again: the method keeps a state"
+    complaint = wrong_with(cloud) or "It failed once, and not in a second evaluation: the method keeps a state"
     return BrokenPromiseError(
         f"{title(method)} in {dim}-D: {promise}. {complaint}.\n"
         f"The smallest cloud found, as code:\n\n"

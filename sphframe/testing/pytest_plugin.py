@@ -12,7 +12,7 @@ __all__ = ["no_installed_plugins", "pytest_configure"]
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Register the hypothesis profiles, where hypothesis is installed."""
+    """Register the hypothesis profiles if hypothesis is installed."""
     try:
         from hypothesis import settings
     except ImportError:
@@ -23,7 +23,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.fixture
 def no_installed_plugins(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Hide every plugin that is installed, except sphframe's own components, for one test."""
+    """Hide all installed plugins for one test; only the components of sphframe itself are available."""
     from sphframe import registry
 
     with monkeypatch.context() as patch:

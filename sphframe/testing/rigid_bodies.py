@@ -13,7 +13,7 @@ __all__ = ["CHECKS"]
 
 
 def check_motion(body: RigidBody) -> None:
-    """The motion is finite, of three generalised coordinates, and the same for the same arguments."""
+    """The motion has three finite generalised coordinates, the same ones for the same arguments."""
     for time in (0.0, 0.3, 2.7):
         first, second = (body.motion(time, np.zeros(3), np.zeros(3), np.zeros(3)) for _ in range(2))
         for name, a, b in zip(first._fields, first, second, strict=True):
@@ -29,7 +29,7 @@ def check_motion(body: RigidBody) -> None:
 
 
 def check_derivatives(body: RigidBody) -> None:
-    """A prescribed motion has consistent derivatives; a dynamic body keeps the position and velocity it is given."""
+    """The velocity and the acceleration of a prescribed motion are the derivatives of position and velocity."""
     given, moving = np.array([0.01, -0.02, 0.03]), np.array([0.1, 0.2, -0.1])
     kept = body.motion(0.5, given, moving, np.zeros(3))
     if np.array_equal(kept.position, given) or not _is_prescribed(body):
@@ -57,13 +57,13 @@ def check_momentum(body: RigidBody) -> None:
     a0, a1, a2 = (body.motion(0.0, position, velocity, load).acceleration for load in loads)
     require(
         bool(np.allclose(a2 - a1, a1 - a0, rtol=1e-6, atol=1e-12 * float(np.max(np.abs(a0)) + 1.0))),
-        f"{title(body)}: load steps of equal size change the acceleration by {(a1 - a0).tolist()} and then by"
+        f"{title(body)}: equal load increments change the acceleration by {(a1 - a0).tolist()} and then by"
         f" {(a2 - a1).tolist()}: force = mass times acceleration",
     )
 
 
 def check_spring_period(body: RigidBody) -> None:
-    """A body with ``mass`` and ``stiffness`` along x swings with the period 2 pi sqrt(m/k) about a constant load."""
+    """A body with ``mass`` and ``stiffness`` along x oscillates with period 2 pi sqrt(m/k) under a constant load."""
     mass, stiffness = getattr(body, "mass", None), getattr(body, "stiffness", None)
     if not (body.needs_load and mass and stiffness):
         return
@@ -73,13 +73,13 @@ def check_spring_period(body: RigidBody) -> None:
     measured = 2.0 * math.pi / math.sqrt(max(near - far, 1e-300))
     require(
         math.isclose(measured, period, rel_tol=1e-6),
-        f"{title(body)}: the acceleration falls by {near - far:.6g} m/s^2 per metre, a period of {measured:.6g} s"
+        f"{title(body)}: the acceleration decreases by {near - far:.6g} m/s^2 per metre, a period of {measured:.6g} s"
         f" instead of 2 pi sqrt(m/k) = {period:.6g} s",
     )
 
 
 def check_stop(body: RigidBody) -> None:
-    """A body corrected to another position, at a stop, has no velocity left towards the stop."""
+    """A body whose position a stop has limited does not move further into the stop."""
     if not body.needs_load:
         return
     for direction in (-1.0, 1.0):
@@ -94,7 +94,7 @@ def check_stop(body: RigidBody) -> None:
 
 
 def _is_prescribed(body: RigidBody) -> bool:
-    """Whether the motion ignores where the body is said to be."""
+    """Whether the motion is independent of the position and velocity that are passed to it."""
     one, other = (body.motion(0.5, np.full(3, x), np.full(3, x), np.zeros(3)) for x in (0.0, 0.01))
     return bool(np.array_equal(one.position, other.position))
 

@@ -19,7 +19,7 @@ def clouds(
     ----------
     dim: 2 or 3.
     families: which of :data:`sphframe.testing.FAMILIES` to draw from.
-    lifted: whether the ghost lies away from the evaluation point, as a method that extrapolates sees it.
+    lifted: whether the ghost lies away from the evaluation point, as for a method that extrapolates.
     largest: the largest ratio of a third of the cut-off radius to the particle spacing, above 1.
 
     The particle spacing lies between a micrometre and a kilometre.

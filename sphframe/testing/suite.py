@@ -1,4 +1,4 @@
-"""Testing: which checks a component gets, and the pytest decorator that runs them."""
+"""Testing: the checks of a component, and the pytest decorator that runs them."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -13,14 +13,14 @@ __all__ = ["Check", "checks_of", "parametrize_with_checks"]
 
 @dataclass(frozen=True)
 class Check:
-    """One check of one component: call it with the component; it raises BrokenPromiseError, or returns."""
+    """A check of a component. Calling it with the component runs it."""
 
     name: str
     function: Callable[..., None]
     dim: int | None = None
     """2 or 3 for a check of an interpolation method"""
     promised: bool = True
-    """whether the component claims the property, by its traits or because all components must have it"""
+    """whether the component declares the property by its traits, or all components must have it"""
     optional: bool = False
     """whether the property is one of the traits"""
 
@@ -54,7 +54,7 @@ def checks_of(component: Any, *, promised_only: bool = True) -> list[Check]:
     Parameters
     ----------
     component: an interpolation method, kernel, equation of state, integrator or rigid body.
-    promised_only: leave out the checks of traits that a method does not promise.
+    promised_only: leave out the checks of traits that a method does not declare.
 
     Raises
     ------
@@ -93,7 +93,7 @@ def parametrize_with_checks(
 
     Parameters
     ----------
-    components: instances to be checked; the ids of the tests show them as code.
+    components: instances to be checked; the test ids show them as code.
     expected_failures: names of checks (``"continuity"``, or ``"continuity-3d"`` for one dimension), each with the
         reason why it fails; a check that then succeeds is an error.
 

@@ -1,4 +1,4 @@
-"""Testing: all checks of components chosen by name, as a report."""
+"""Testing: report on all checks of components that are chosen by name."""
 
 import dataclasses
 import itertools
@@ -21,15 +21,15 @@ Verdict = Literal["kept", "held", "broken", "absent"]
 
 @dataclass(frozen=True)
 class Result:
-    """What came of one check."""
+    """The result of one check."""
 
     check: Check
     failure: str | None
-    """why the component does not have the property; None where it has"""
+    """why the component lacks the property; None where it has the property"""
 
     @property
     def verdict(self) -> Verdict:
-        """Promised and kept, held though not promised, promised and broken, or absent as declared."""
+        """``kept`` or ``broken`` for a declared property, ``held`` or ``absent`` for one that is not declared."""
         if self.check.promised:
             return "kept" if self.failure is None else "broken"
         return "held" if self.failure is None else "absent"
@@ -37,7 +37,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Report:
-    """All results of one component, or why it could not be had."""
+    """All results of one component, or the error that prevented its checks."""
 
     name: str
     kind: str
@@ -47,11 +47,11 @@ class Report:
 
     @property
     def broken(self) -> bool:
-        """Whether a promise is broken or the component could not be had."""
+        """Whether the component lacks a declared property or could not be checked."""
         return self.error is not None or any(result.verdict == "broken" for result in self.results)
 
     def verdicts(self) -> dict[str, Verdict]:
-        """Return the verdict per property, over all dimensions: the worst of them."""
+        """Return the worst verdict over all dimensions for each property."""
         worst = ("held", "kept", "absent", "broken")
         found: dict[str, Verdict] = {}
         for result in self.results:
@@ -82,13 +82,13 @@ class Report:
 
 
 def verify(names: Sequence[str] = (), *, progress: Callable[[str], None] | None = None) -> Iterator[Report]:
-    """Run all checks of the components called ``names``, one report after the other.
+    """Run all checks of the components with ``names`` and yield one report per component.
 
     Parameters
     ----------
     names: registered names, ``module:attribute``, or either with options as in ``sfdi[form=printed]``; of interpolation
         methods, kernels, equations of state, integrators and rigid bodies. Without names: every installed interpolation
-        method, once for each value of an option that is a choice.
+        method, once for each value of an option that has a list of values.
     progress: called with a line of text before each component and check.
 
     Raises
@@ -142,14 +142,14 @@ def _installed_methods() -> Iterator[_Choice]:
         try:
             variants = list(_variants(load("interpolators", entry.name)))
         except PluginError:
-            variants = [{}]  # the report will say why
+            variants = [{}]  # the report contains the error
         for options in variants:
             listed = ",".join(f"{key}={value}" for key, value in options.items())
             yield "interpolators", f"{entry.name}[{listed}]" if listed else entry.name, entry.name, options
 
 
 def _variants(component: Any) -> Iterator[dict[str, Any]]:
-    """Every combination of the values of options that are a choice, those at their default left out."""
+    """All combinations of values of the options with a list of values; default values are left out."""
     if not dataclasses.is_dataclass(component):
         yield {}
         return
@@ -159,7 +159,7 @@ def _variants(component: Any) -> Iterator[dict[str, Any]]:
         for field in dataclasses.fields(component)
         if typing.get_origin(hints.get(field.name)) is Literal and field.default is not dataclasses.MISSING
     }
-    # the default first
+    # the default is the first value
     orders = [[default, *(v for v in values if v != default)] for default, values in choices.values()]
     for combination in itertools.product(*orders):
         chosen = zip(choices, combination, strict=True)
@@ -184,7 +184,7 @@ def _report(kind: str, label: str, name: str, options: dict[str, Any], progress:
         result = Result(check, _failure(check, component))
         results.append(result)
         if result.failure is not None and check.name in ("traits", "compiles"):
-            unusable.add(check.dim)  # all others would only repeat it
+            unusable.add(check.dim)  # all further checks would fail for the same reason
     return Report(label, kind, distribution, tuple(results))
 
 

@@ -1,7 +1,7 @@
-"""Testing: how weights are compared: tolerances, evaluation, and the words of a failure.
+"""Testing: comparison of the weights of interpolation methods: tolerances, and messages about differences.
 
 Weights are compared within round-off times the condition number of the neighbourhood (:func:`tolerance`); where the
-geometry does not determine an answer, only gross errors count.
+geometry does not determine the weights, only large errors are reported.
 """
 
 import numpy as np
@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 CLEAR = 1e-3
-"""of the cut-off radius: beyond, round-off in r is magnified by methods whose weights vanish there"""
+"""share of the cut-off radius: particles this near to it are left out, as vanishing weights magnify round-off"""
 _EPSILON = float(np.finfo(np.float64).eps)
 _COARSEST = 1e-4
 
@@ -43,13 +43,21 @@ def invariance_tolerance(cloud: Cloud, outcome: Outcome, degree: int) -> float:
 
 
 def degree_of(method: BoundaryInterpolator) -> int:
-    """The degree of the polynomials behind the method, for its condition number; a method may not keep what it has."""
+    """Degree of the polynomials that determine the condition number of the method.
+
+    A method with negative weights may fit linear functions without declaring that it reproduces them.
+    """
     degree = method.traits.reproduces_degree
     return degree if method.traits.non_negative else max(1, degree)
 
 
 def evaluator_of(method: BoundaryInterpolator, dim: int, garbage: float = np.nan) -> Evaluate:
-    """Return the function that evaluates the method; a weights function that cannot be made breaks the interface."""
+    """Return the function that evaluates the method.
+
+    Raises
+    ------
+    BrokenPromiseError: the weights function cannot be made.
+    """
     try:
         return evaluator(method, dim, garbage=garbage)
     except Exception as error:
@@ -59,7 +67,7 @@ def evaluator_of(method: BoundaryInterpolator, dim: int, garbage: float = np.nan
 
 
 def broken(method: BoundaryInterpolator, dim: int, complaint: str, cloud: Cloud | None = None) -> BrokenPromiseError:
-    """Return the error that the method does not have a property, with the cloud as code."""
+    """Return the error that says which property the method lacks, with the cloud as code."""
     code = "" if cloud is None else f", for\n\n    cloud = {cloud!r}\n"
     return BrokenPromiseError(f"{title(method)} in {dim}-D: {complaint}{code}")
 
@@ -67,14 +75,14 @@ def broken(method: BoundaryInterpolator, dim: int, complaint: str, cloud: Cloud 
 def difference_between(
     method: BoundaryInterpolator, cloud: Cloud, before: Outcome, after: Outcome, degree: int
 ) -> str | None:
-    """Say how two answers that should be equal differ."""
+    """Return how two results that should be equal differ, or None where they agree."""
     if not method.traits.continuous:
         r = np.sort(cloud.distances)
         if len(r) > 1 and r[1] - r[0] <= 1e-6 * cloud.support:
-            return None  # two particles are nearest: the method may choose either
+            return None  # two particles are equally near: a discontinuous method may take either
     if before.status != after.status:
         if condition(cloud, max(1, degree)) > 1e6:
-            return None  # on the brink
+            return None  # close to singular: round-off decides the status
         return f"changes the status from {status_name(before)} to {status_name(after)}"
     if len(before.weights) != len(after.weights):
         return None

@@ -1,4 +1,4 @@
-"""Testing: the compiled weights function of an interpolation method, against plain Python and its own memory."""
+"""Testing: the compiled weights function of an interpolation method: results, memory, agreement with plain Python."""
 
 import numpy as np
 
@@ -40,15 +40,15 @@ def check_compiles(method: BoundaryInterpolator, dim: int) -> None:
     except Exception as error:
         raise BrokenPromiseError(
             f"{title(method)} in {dim}-D: the compiled weights function raises {type(error).__name__}: {error}.\n"
-            f"A weights function must not raise: answer SINGULAR or TOO_FEW"
+            f"A weights function must not raise: return SINGULAR or TOO_FEW"
         ) from error
 
 
 def check_repeatable(method: BoundaryInterpolator, dim: int) -> None:
     """The same cloud gets the same weights, whatever ``out`` held before and whatever was computed in between.
 
-    To round-off: compiled loops check at run time whether their arrays lie far enough apart in memory to be vectorised,
-    and fused multiply-adds round otherwise in the two forms of a loop.
+    The weights may differ by round-off: compiled loops check at run time whether their arrays lie far enough apart in
+    memory to be vectorised, and fused multiply-adds round differently in the vectorised and the scalar loop.
     """
     run, again, degree = evaluator_of(method, dim), evaluator_of(method, dim, garbage=1e30), degree_of(method)
     other = build("full support", dim, seed=99)
@@ -125,12 +125,12 @@ def check_writes_only_out(method: BoundaryInterpolator, dim: int) -> None:
         if not np.array_equal(lifts[0], cloud.lift):
             changed.append("lift")
         if any(np.any(array[:16] != 7.25) or np.any(array[-16:] != 7.25) for array in (offsets, values, volumes, out)):
-            changed.append("memory before or behind its arrays")
+            changed.append("memory before or after its arrays")
         if changed:
             raise broken(
                 method,
                 dim,
-                f"a weights function must write to out[0] .. out[n - 1] alone, but it changed {', '.join(changed)}",
+                f"a weights function must write only to out[0] .. out[n - 1], but it changed {', '.join(changed)}",
                 cloud,
             )
 
@@ -147,6 +147,6 @@ def check_no_allocation(method: BoundaryInterpolator, dim: int) -> None:
         raise broken(
             method,
             dim,
-            "the compiled weights function allocates memory, for every point of every step: use scalars, out, or"
+            "the compiled weights function allocates memory for every point in every step: use scalars, out, or"
             " sphframe.local_array(size) instead of numpy arrays",
         )

@@ -1,4 +1,4 @@
-"""Testing: what an interpolation method declares: its traits, and the fewest neighbours it needs."""
+"""Testing: the declared traits of an interpolation method, and the fewest neighbours that it needs."""
 
 import numpy as np
 
@@ -12,11 +12,11 @@ from sphframe.testing.proof import BrokenPromiseError, prove
 __all__ = ["check_fewest_points", "check_traits"]
 
 WELL_PLACED = 2.0
-"""sum of |weights| of a quadratic fit up to which a neighbourhood leaves no reason to refuse an answer"""
+"""largest sum of |weights| of a quadratic fit for which a method must return OK"""
 
 
 def check_traits(method: BoundaryInterpolator, dim: int) -> None:
-    """The traits are well formed, and do not contradict each other."""
+    """The traits have valid values and do not contradict each other."""
     traits = method.traits
     if not isinstance(traits, Traits):
         raise BrokenPromiseError(f"{title(method)}: traits must be a sphframe.Traits, got {traits!r}")
@@ -61,7 +61,7 @@ def check_fewest_points(method: BoundaryInterpolator, dim: int) -> None:
             raise broken(
                 method,
                 dim,
-                f"fewest_points promises OK for {fewest} neighbours in general position, but the status is"
+                f"fewest_points declares OK for {fewest} neighbours in general position, but the status is"
                 f" {status_name(outcome)}",
                 cloud,
             )
@@ -72,8 +72,8 @@ def check_fewest_points(method: BoundaryInterpolator, dim: int) -> None:
                 raise broken(
                     method,
                     dim,
-                    f"fewest_points says {fewest}, but the status is OK with {fewest - 1} neighbours: promise fewer, or"
-                    f" answer TOO_FEW",
+                    f"fewest_points says {fewest}, but the status is OK with {fewest - 1} neighbours: declare fewer, or"
+                    f" return TOO_FEW",
                     cloud,
                 )
 
@@ -83,7 +83,7 @@ def check_fewest_points(method: BoundaryInterpolator, dim: int) -> None:
             return f"the status is OK with {len(cloud)} neighbours, and fewest_points says {fewest}"
         return None
 
-    prove(method, dim, "fewer neighbours than fewest_points must not be answered with OK", wrong_with)
+    prove(method, dim, "the status must not be OK for fewer neighbours than fewest_points", wrong_with)
 
     def refused(cloud: Cloud) -> str | None:
         outcome = run(cloud)
@@ -92,11 +92,14 @@ def check_fewest_points(method: BoundaryInterpolator, dim: int) -> None:
             return f"the status is {status_name(outcome)} with {len(cloud)} well-placed neighbours"
         return None
 
-    prove(method, dim, "a well-placed neighbourhood must be answered with OK", refused, REGULAR)
+    prove(method, dim, "the status must be OK for a well-placed neighbourhood", refused, REGULAR)
 
 
 def _general_position(dim: int, count: int, seed: int) -> Cloud:
-    """Vertices, then edge midpoints, of a regular simplex around the point: six of them (3-D: ten) fix a quadratic."""
+    """A cloud of ``count`` vertices and edge midpoints of a randomly rotated regular simplex around the point.
+
+    All of them, six in 2-D and ten in 3-D, determine a quadratic polynomial. Further particles are at random places.
+    """
     rng = np.random.default_rng(seed)
     vertices = np.linalg.qr(np.column_stack([np.ones(dim + 1), np.eye(dim + 1)[:, :dim]]))[0][:, 1:]
     vertices /= np.linalg.norm(vertices, axis=1, keepdims=True)

@@ -1,4 +1,4 @@
-"""Testing: what must not change the weights of an interpolation method."""
+"""Testing: changes of a neighbourhood that must not change the weights of an interpolation method."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,7 +61,7 @@ def _check_orthogonal(method: BoundaryInterpolator, dim: int, doing: str, maps: 
 
 
 def check_permutation_invariance(method: BoundaryInterpolator, dim: int) -> None:
-    """The order of the particles does not matter."""
+    """The weights do not depend on the order of the particles."""
     run, degree = evaluator_of(method, dim), degree_of(method)
 
     def wrong_with(cloud: Cloud) -> str | None:
@@ -75,11 +75,12 @@ def check_permutation_invariance(method: BoundaryInterpolator, dim: int) -> None
                 return f"taking the particles in the order {order.tolist()[:12]} {difference}"
         return None
 
-    prove(method, dim, "the order of the particles must not matter", wrong_with, (*SPARSE, "coincident", "lattice"))
+    families = (*SPARSE, "coincident", "lattice")
+    prove(method, dim, "weights must not depend on the order of the particles", wrong_with, families)
 
 
 def check_scale_invariance(method: BoundaryInterpolator, dim: int) -> None:
-    """Scaling all lengths by a power of two, from micrometres to kilometres, changes no bit that matters."""
+    """Scaling all lengths by a power of two, from micrometres to kilometres, changes no weight."""
     _check_scaling(method, dim, (2.0**-20, 2.0**10))
 
 
@@ -121,7 +122,7 @@ def check_translation_invariance(method: BoundaryInterpolator, dim: int) -> None
                     method,
                     dim,
                     f"moving the point and the particles by {shift.tolist()} changes a weight by {difference:.3g};"
-                    f" weights must depend on offsets alone",
+                    f" weights must depend only on offsets",
                     cloud,
                 )
 
@@ -135,7 +136,7 @@ def check_volume_independence(method: BoundaryInterpolator, dim: int) -> None:
         volumes = cloud.volumes.mean() * 10.0 ** np.random.default_rng(0).uniform(-1.0, 1.0, len(cloud))
         answer = run(cloud.changed(volumes=volumes))
         if OK not in (outcome.status, answer.status):
-            return None  # the fallback may use them
+            return None  # the fallback may depend on them
         difference = difference_between(method, cloud, outcome, answer, degree)
         return None if difference is None else f"other volumes {difference}"
 
@@ -143,7 +144,7 @@ def check_volume_independence(method: BoundaryInterpolator, dim: int) -> None:
 
 
 def check_continuity(method: BoundaryInterpolator, dim: int) -> None:
-    """A tiny move of the evaluation point changes the weights but little, also where the nearest particle changes."""
+    """A tiny displacement of the evaluation point changes the weights little, even if the nearest particle changes."""
     run, degree = evaluator_of(method, dim), degree_of(method)
 
     def wrong_with(cloud: Cloud) -> str | None:
@@ -168,7 +169,7 @@ def check_continuity(method: BoundaryInterpolator, dim: int) -> None:
             allowed = min(1e-6 * condition(near, degree), 1e-3) * max(before.magnitude, after.magnitude)
             if not jump <= allowed:
                 return (
-                    f"about {centre.tolist()}, moving the evaluation point by {2.0 * step:.3g} along {along.tolist()}"
+                    f"near {centre.tolist()}, moving the evaluation point by {2.0 * step:.3g} along {along.tolist()}"
                     f" changes a weight by {jump:.3g}"
                 )
         return None

@@ -1,4 +1,4 @@
-"""Testing: the weights of an interpolation method: finite, bounded, of sum one, exact on polynomials."""
+"""Testing: the weights of an interpolation method: finite, bounded, with sum one, exact on polynomials."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,22 +29,22 @@ __all__ = [
 ]
 
 LARGEST_SUM = 1000.0
-"""largest sum of |weights| that a method may answer with: beyond, noise of a thousandth swamps the field"""
+"""largest sum of |weights| that a method may return: above it, noise of 0.1 % is as large as the field"""
 
 
 def check_honest_status(method: BoundaryInterpolator, dim: int) -> None:
-    """Every cloud gets finite weights and a status; DRY is for points without neighbours, which no method sees."""
+    """Every cloud gets finite weights and a known status; only points without neighbours are DRY."""
     run = evaluator_of(method, dim)
 
     def wrong_with(cloud: Cloud) -> str | None:
         try:
             outcome = run(cloud)
         except Exception as error:
-            return f"the compiled function raises {type(error).__name__}: {error}; it must answer with a status instead"
+            return f"the compiled function raises {type(error).__name__}: {error}; it must return a status instead"
         if outcome.status not in tuple(Status):
             return f"the status is {outcome.status}, which is not one of sphframe.Status"
         if outcome.status == DRY:
-            return f"the status is DRY with {len(cloud)} neighbours; DRY is for points without any"
+            return f"the status is DRY with {len(cloud)} neighbours; DRY is only for points without any"
         if not np.all(np.isfinite(outcome.weights)):
             return f"the weights are {shortened(outcome.weights)} (status {Status(outcome.status).name})"
         return None
@@ -58,7 +58,7 @@ def check_honest_status(method: BoundaryInterpolator, dim: int) -> None:
 
 
 def check_bounded_weights(method: BoundaryInterpolator, dim: int) -> None:
-    """sum_j |Phi_j| stays below 1000: a method answers SINGULAR rather than magnify noise without limit."""
+    """sum_j |Phi_j| stays below 1000: where it would be larger, a method returns SINGULAR."""
     run = evaluator_of(method, dim)
 
     def wrong_with(cloud: Cloud) -> str | None:
@@ -71,7 +71,7 @@ def check_bounded_weights(method: BoundaryInterpolator, dim: int) -> None:
 
 
 def check_partition_of_unity(method: BoundaryInterpolator, dim: int) -> None:
-    """sum_j Phi_j = 1, whatever the status: a constant field comes back."""
+    """sum_j Phi_j = 1 for any status: a constant field is reproduced."""
     run, degree = evaluator_of(method, dim), degree_of(method)
 
     def wrong_with(cloud: Cloud) -> str | None:
@@ -100,7 +100,7 @@ def check_non_negative(method: BoundaryInterpolator, dim: int) -> None:
 
 
 def check_range_restricted(method: BoundaryInterpolator, dim: int) -> None:
-    """Min f <= sum_j Phi_j f_j <= max f, for the fields that are hardest on the method and for random ones."""
+    """Min f <= sum_j Phi_j f_j <= max f, for the fields with the largest value of the sum and for random ones."""
     run = evaluator_of(method, dim)
 
     def wrong_with(cloud: Cloud) -> str | None:
@@ -118,11 +118,11 @@ def check_range_restricted(method: BoundaryInterpolator, dim: int) -> None:
                 return f"a field between {field.min():.6g} and {field.max():.6g} gives {value:.15g}"
         return None
 
-    prove(method, dim, "the value must lie between the smallest and the largest of the neighbours'", wrong_with)
+    prove(method, dim, "the value must lie between the smallest and the largest value of the neighbours", wrong_with)
 
 
 def check_linear_reproduction(method: BoundaryInterpolator, dim: int) -> None:
-    """Linear fields are reproduced where the status is OK, at the ghost if the method extrapolates to it."""
+    """Linear fields are reproduced where the status is OK; at the ghost for a method that extrapolates."""
     _check_reproduction(method, dim, 1)
 
 
@@ -167,7 +167,7 @@ def _monomials(dim: int, degree: int) -> list[tuple[NDArray[np.int64], str]]:
 
 
 def check_interpolates_particles(method: BoundaryInterpolator, dim: int) -> None:
-    """At a particle the value is that particle's own; where several coincide, it is made of theirs alone."""
+    """At a particle the value is that of the particle; where several coincide, the others have no weight."""
     run = evaluator_of(method, dim)
 
     def wrong_with(cloud: Cloud) -> str | None:
@@ -177,7 +177,8 @@ def check_interpolates_particles(method: BoundaryInterpolator, dim: int) -> None
         outcome = run(cloud.changed(lift=np.zeros(dim)))
         there = float(np.sum(outcome.weights[here]))
         if not abs(there - 1.0) <= tolerance(cloud, outcome, 0) or np.any(outcome.weights[~here] != 0.0):
-            return f"the {int(here.sum())} particle(s) at the point get {there:.12g} of the weight"
+            return f"the {int(here.sum())} particle(s) at the point have the weight {there:.12g} in total"
         return None
 
-    prove(method, dim, "at a particle, the value must be that particle's", wrong_with, ("at a particle", "coincident"))
+    families = ("at a particle", "coincident")
+    prove(method, dim, "at a particle, the value must be that of the particle", wrong_with, families)
