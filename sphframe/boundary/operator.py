@@ -6,8 +6,8 @@ The solver interpolates without a matrix, but with the same compiled weights and
 # mypy: disable-error-code="no-untyped-call"
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -109,7 +109,7 @@ def operator(
     return csr_array((entries, members, starts), shape=(len(points), len(positions))), statuses
 
 
-def weights_loop(interpolator: BoundaryInterpolator, kernel: Kernel, dim: int) -> Any:
+def weights_loop(interpolator: BoundaryInterpolator, kernel: Kernel, dim: int) -> Callable[..., None]:
     """Return the compiled loop of :func:`operator` for one method, kernel and dimension."""
     functions = compiled_kernel(kernel, dim)
     return specialise(

@@ -7,13 +7,4 @@ from sphframe.compiled.lanes import LANES
 from sphframe.compiled.local_array import local_array
 from sphframe.compiled.specialise import compile_part, fingerprint, specialise
 
-__all__ = [
-    "LANES",
-    "compile_part",
-    "fast_exp",
-    "fingerprint",
-    "fma",
-    "local_array",
-    "specialise",
-    "squared_distance",
-]
+__all__ = ["LANES", "compile_part", "fast_exp", "fingerprint", "fma", "local_array", "specialise", "squared_distance"]
