@@ -1,29 +1,30 @@
-"""Boundary: velocities of ghosts, conjugate to their pressures, for the mirror lift.
+"""Boundary: velocities of ghosts, corrected so that walls do no spurious work, for the mirror lift.
 
-A ghost's velocity enters the continuity of the fluid, its pressure the momentum. In a uniform pressure p the power of
-the two sums over the ghosts is p times::
+The velocity of a ghost enters the continuity equation of the fluid, its pressure the momentum equation. In a uniform
+pressure p the power of the two sums over the ghosts is p times::
 
     sum_G V_G sum_j V_j grad_j W_jG.[(u_j - u_wall) + (u_G - u_wall)]
 
-the rate at which a wall at rest makes or destroys mechanical energy, which should vanish. Let Q = (1 - S)/2 project on
-the components that the wall reverses (S as in :mod:`sphframe.boundary.ghosts`). The velocity that the method
-interpolates is corrected by the least that makes their part of each ghost's sum vanish::
+which should vanish: it is the rate at which a wall at rest produces or destroys mechanical energy. Q = (1 - S)/2 is the
+projection on the components of the velocity that the wall reverses (S as in :mod:`sphframe.boundary.ghosts`). The
+velocity that the method interpolates is changed as little as possible so that the part of these components vanishes
+from the sum of each ghost::
 
     u_G <- u_G - (b / a.a) a,    a = sum_j V_j Q grad_j W_jG,    b = sum_j V_j (Q grad_j W_jG).(u_j + u_G - 2 u_wall)
 
-Beside one face, with free slip, this leaves the tangential velocity as it is and makes the normal one, relative to the
-wall, -sum_j omega_j u_j.n with omega_j = V_j dW_jG/dn over their sum: an average of the same neighbours, with positive
-weights that add up to one whatever the method's are. Nothing is corrected where the gradients nearly cancel.
+Near one plane face, with free slip, this does not change the tangential velocity. The normal velocity relative to the
+wall becomes -sum_j omega_j u_j.n with omega_j = V_j dW_jG/dn over their sum: an average over the same neighbours, with
+positive weights that sum to one for every method. Nothing is corrected where the gradients nearly cancel.
 
-Why: in a pressure p neighbouring layers oscillate against each other with a frequency of about sqrt(p/rho)/dx, which
-is in reach of the sound waves. With the mirror lift, weights that do not reproduce a linear field leave the pressure of
-the ghosts under a bed too low; the first layers settle out of place, by what is missing over p; so an oscillation of p
-shakes them against each other. Weights as wide as the kernel do not see such a motion and the ghosts do not answer it,
-so that the power above does not vanish: through the damping of that motion, by viscosity and diffusion, sound is fed
-(in the tank at rest, with the normalised method, it grew by a factor of e in 1.7 s). With the balanced lift no pressure
-is missing, and this is not used.
+Reason: under a pressure p neighbouring layers of particles oscillate against each other with a frequency of about
+sqrt(p/rho)/dx, which is in the range of the sound waves. With the mirror lift, weights that do not reproduce a linear
+field give the ghosts below a bed too low a pressure. The first layers are then displaced in proportion to the missing
+pressure over p, so that an oscillation of p moves them against each other. Weights as wide as the kernel do not resolve
+this motion, the velocity of the ghosts does not follow it, and the power above does not vanish: while viscosity and
+diffusion damp the motion of the layers, sound gains energy (in the tank at rest, with the normalised method, its
+amplitude grew by a factor of e in 1.7 s). With the balanced lift no pressure is missing, and there is no correction.
 
-Departs from the paper, which gives the ghosts the velocity that the method interpolates; a case does so with
+Departs from the paper, where the ghosts have the velocity that the method interpolates; a case does so with
 ``ghost_velocity = "interpolated"``, as all presets named ``paper`` do.
 """
 
@@ -37,7 +38,7 @@ from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, SUPPORT
 __all__ = ["make_conjugate"]
 
 CANCELLED = 0.1
-"""|a| over the sum of |V_j grad W| below which there is no correction; beside one face it is at least dx/(2 R)"""
+"""|a| over the sum of |V_j grad W| below which there is no correction; near one plane face it is at least dx/(2 R)"""
 
 
 def make_conjugate(  # type: ignore[no-untyped-def]

@@ -1,15 +1,15 @@
-"""Boundary: particles that have come behind a wall are put back on it.
+"""Boundary: particles behind a wall are put back on its surface.
 
-Ghost pressures keep the fluid off its walls, but a single fast particle of a jet, without neighbours to press it back,
-can cross the surface by a fraction of a spacing, and nothing behind the wall would return it. Such a particle is put
-on the surface, and the component of its velocity into the wall, relative to the wall, is taken away.
+The pressures of the ghosts keep the fluid away from the walls. But a single fast particle of a jet, which has no
+neighbours that push it back, can cross the surface by a fraction of a spacing, and no force would return it. Such a
+particle is put on the surface, and the component of its relative velocity into the wall is set to zero.
 
 With the nearest ghost of the first layer, its wall point w = (x_G + x_M)/2 and normal n out of the fluid, the particle
 is behind the wall when s = (x - w).n > 0, and then
 
     x := x - s n,    u := u - max[(u - u_wall).n, 0] n
 
-Departs from the paper, which has no such rule. It acts on none of the particles of a tank at rest.
+Departs from the paper, which has no such rule. In a tank at rest it acts on no particle.
 """
 
 import math
@@ -25,10 +25,10 @@ __all__ = ["put_back"]
 def put_back(  # type: ignore[no-untyped-def]
     rows, fluid_count, lists, fluid_counts, ghost_counts, columns, spacing, mirror, wall_velocity
 ):
-    """Put particles behind a wall back on it, in ``rows``; return how many there were.
+    """Put the particles behind a wall back on its surface, in ``rows``; return their number.
 
-    A row of ``lists`` serves LANES particles; ``columns``: :class:`Columns` of ``rows``; ``mirror`` (g, dim): mirror
-    points, m; ``wall_velocity`` (g, dim): velocity of the wall at each ghost, m/s.
+    A row of ``lists`` is the common list of LANES particles; ``columns``: :class:`Columns` of ``rows``; ``mirror``
+    (g, dim): mirror points, m; ``wall_velocity`` (g, dim): velocity of the wall at each ghost, m/s.
     """
     contacts = 0
     for c in numba.prange(fluid_counts.shape[0]):
@@ -44,7 +44,7 @@ def put_back(  # type: ignore[no-untyped-def]
         for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
             j = lists[c, k]
             span2 = squared_distance(rows, j, mirror, j - fluid_count, columns.dim)
-            if span2 > 1.5 * spacing * spacing:  # in the first layer of a face it is 1: 2 d is the spacing
+            if span2 > 1.5 * spacing * spacing:  # the span is 1 spacing in the first layer, 3 in the next
                 continue
             for a in range(present):
                 distance2 = squared_distance(rows, j, rows, first + a, columns.dim)

@@ -1,29 +1,30 @@
 """Boundary: fixed ghost particles in three steps: mirror (geometry), interpolate, assign.
 
-Each ghost has an evaluation point r (its mirror point x_M, or itself) where the fluid is interpolated with the
-method's weights Phi_j, and is then assigned, with the driving force rho0 (f - a_wall) of the pressure condition
-dp/dn = rho (f - a_wall).n::
+Each ghost has an evaluation point r, its mirror point x_M or its own position, to which the fluid is interpolated with
+the weights Phi_j of the method. With the driving force rho0 (f - a_wall) of the pressure condition
+dp/dn = rho (f - a_wall).n the ghost is assigned::
 
     balanced lift   p_G = sum_j Phi_j [p_j + rho0 (f - a_wall).(x_G - x_j)]
     mirror lift     p_G = sum_j Phi_j p_j + rho0 (f - a_wall).(x_G - x_M)
     velocity        u_G = u_wall + [(1 - s)/2 + (1 + s)/2 S] (sum_j Phi_j u_j - u_wall)
 
 S is the reflection of the wall for free slip and -1 for no slip: it keeps some components of the relative velocity
-and reverses the others, which vanish at the wall. With the balanced lift and ``ghost_velocity = "corrected"`` those are
-scaled by s = d / sum_j Phi_j d_j, d the distance from the wall: exact, for any weights that sum to one, for a velocity
-that grows linearly from the wall. Else, and where the method evaluates at the ghost, s = 1; for the correction with the
-mirror lift see :mod:`sphframe.boundary.conjugate`. A wall does not pull: p_G is at least zero. The density follows from
-the inverse equation of state. A point without neighbours is DRY: p_G = 0, u_G = u_wall.
+and reverses the others, which vanish at the wall. With the balanced lift and ``ghost_velocity = "corrected"`` the
+reversed components are scaled by s = d / sum_j Phi_j d_j, where d is the distance from the wall. This is exact for a
+velocity that grows linearly from the wall, for any weights that sum to one. In all other cases, and where the method
+evaluates at the ghost, s = 1; for the correction with the mirror lift see :mod:`sphframe.boundary.conjugate`. Negative
+pressures are clipped to zero. The density follows from the inverse equation of state. A point without neighbours is
+DRY: p_G = 0, u_G = u_wall.
 
-Why s: weights of zeroth order sample the fluid further from the wall than the mirror point lies. The ghosts then
-answer too much normal velocity, the divergence at the wall is wrong, and the first layer's pressure drifts (in the
-tank at rest with the normalised method by 1.5 % of rho g H, without s).
+Reason for s: weights of zeroth order sample the fluid at a larger distance from the wall than that of the mirror point.
+Without s the normal velocity of the ghosts is too large, the divergence at the wall is wrong, and the pressure of the
+first layer drifts (in the tank at rest with the normalised method by 1.5 % of rho g H).
 
-Departs from the paper: its pressure condition lacks the wall's own acceleration; the balanced lift, exact on a
-hydrostatic field for any weights that sum to one, and s are this project's; so is the limit at zero, without which
-suction draws particles of thin jets through the wall (dam break at H/30: three particles; with it none). A method
-that evaluates at the ghost always uses the balanced lift (there is no distance to lift over otherwise); one that
-extrapolates uses none.
+Departs from the paper: its pressure condition lacks the acceleration of the wall. The balanced lift, which is exact on
+a hydrostatic field for any weights that sum to one, and s are additions. Negative pressures are clipped because they
+draw particles of thin jets through the wall (dam break at H/30: three particles; with the clipping none). A method that
+evaluates at the ghost always uses the balanced lift, since the mirror lift over a distance of zero is zero; a method
+that extrapolates uses none.
 
 Source: X. Huang et al. (2019), doi:10.3390/w11051110, section 2.2 and Eqs. 8, 13, 16, 21.
 """
@@ -49,7 +50,7 @@ SCALED = True
 EXTRAPOLATED = False
 
 BLOCK = 16
-"""of consecutive ghosts, which see the same particles"""
+"""number of consecutive ghosts, whose neighbours are mostly the same, that a thread computes in one go"""
 
 
 class Scratch(NamedTuple):
@@ -106,7 +107,7 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
         lift = scratch.lift[chunk]
         mean_offset = local_array(DIM)
         mean_velocity = local_array(DIM)
-        for block in range(chunk, blocks, chunks):  # the wet ghosts are neighbours: dealt out, threads share them
+        for block in range(chunk, blocks, chunks):  # wet ghosts are consecutive: each chunk gets some
             for g in range(block * BLOCK, min((block + 1) * BLOCK, ghosts)):
                 px = points[g, 0]
                 py = points[g, 1]
@@ -127,7 +128,7 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                     distances[n] = r2
                     volumes[n] = rows[j, COLUMNS.volume]
                     members[n] = j
-                    n += 1 if r2 < limit else 0  # stays only if it is near: no branch to be mispredicted
+                    n += 1 if r2 < limit else 0  # else it is overwritten: faster than a branch
                 for k in range(n):
                     distances[k] = math.sqrt(distances[k])
                     values[k] = parameters.kernel_scale * VALUE(distances[k] * per_h)
@@ -172,7 +173,7 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                         pressure += driving_forces[g, d] * lifts[g, d]
                 pressure = max(pressure, 0.0)
 
-                slope = 1.0  # s above; the lift is 2 d n, and d_j = d - (x_j - x_M).n
+                slope = 1.0  # s of the module's docstring; the lift is 2 d n, and d_j = d - (x_j - x_M).n
                 if SCALED and n > 0:
                     span = 0.0
                     moment = 0.0

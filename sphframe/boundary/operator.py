@@ -1,6 +1,6 @@
 """Boundary: an interpolation method as a sparse matrix, for analysis and tests.
 
-The solver interpolates without a matrix, but with the same compiled weights and fallback.
+The solver uses no matrix, but the same compiled weights and fallback.
 """
 
 # mypy: disable-error-code="no-untyped-call"
@@ -30,7 +30,7 @@ Integers = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class ParticleCloud:
-    """Fluid particles as an interpolation method sees them.
+    """The fluid particles from which a method interpolates.
 
     Attributes
     ----------
@@ -71,7 +71,8 @@ def operator(
     Returns
     -------
     Phi: csr_array (m, n), dimensionless, with an entry for each particle nearer than the cut-off, zeros included;
-        rows of points that the method cannot serve hold its fallback's weights, rows of dry points are empty.
+        rows of points where the method returned TOO_FEW or SINGULAR hold the weights of its fallback, rows of dry
+        points are empty.
     statuses: (m,) integers, see :class:`sphframe.Status`.
 
     Raises
@@ -154,7 +155,7 @@ def _fill_rows(  # type: ignore[no-untyped-def]
 
 
 def _search(points: Array, positions: Array, support: float) -> tuple[Integers, Integers]:
-    """Return, in the manner of a CSR matrix, the particles nearer than ``support`` to each point."""
+    """Return the particles nearer than ``support`` to each point as row starts and columns of a CSR matrix."""
     found = cKDTree(positions).query_ball_point(points, support, return_sorted=True)
     counts = np.array([len(row) for row in found], dtype=np.int64)
     members = np.fromiter((j for row in found for j in row), dtype=np.int64, count=int(counts.sum()))

@@ -1,4 +1,4 @@
-"""Compiled: what loops compiled by Numba are made with."""
+"""Compiled: the tools with which the loops of Numba are written."""
 
 from sphframe.compiled.distance import squared_distance
 from sphframe.compiled.fast_exp import fast_exp

@@ -1,4 +1,4 @@
-"""Compiled: an exponential made of multiplications alone, for kernels that are evaluated a hundred million times."""
+"""Compiled: an exponential of multiplications and additions alone, for kernels that are evaluated very often."""
 
 import math
 
@@ -31,9 +31,9 @@ def fast_exp(x: float) -> float:
 
     exp(x) = exp(x/32)^32, and exp(x/32) by a polynomial of degree 8.
 
-    Why not ``math.exp``: without Intel's SVML, which the binary packages of llvmlite lack, Numba calls the C library
-    once for every value. Measured in a compiled loop over 4 million values: 5.9 ns a value by ``math.exp``, 3.1 ns by
-    this function in a dependent sum and 0.5 ns where the loop vectorises.
+    It replaces ``math.exp`` because the binary packages of llvmlite lack Intel's SVML, without which Numba calls the C
+    library for every value. Measured in a compiled loop over 4 million values: 5.9 ns per value with ``math.exp``,
+    3.1 ns with this function in a sum where each term waits for the one before, and 0.5 ns in a loop that vectorises.
 
     Examples
     --------
@@ -42,7 +42,7 @@ def fast_exp(x: float) -> float:
     """
     x2 = x * x
     x4 = x2 * x2
-    # grouped after Estrin: fewer operations wait for each other than in Horner's scheme
+    # Estrin's grouping: fewer operations wait for each other than in Horner's scheme
     low = fma(x2, fma(_C3, x, _C2), fma(_C1, x, _C0))
     high = fma(x4, _C8, fma(x2, fma(_C7, x, _C6), fma(_C5, x, _C4)))
     p = fma(x4, high, low)

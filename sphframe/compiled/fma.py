@@ -1,4 +1,4 @@
-"""Compiled: the fused multiply-add, which compiled loops ask for by name."""
+"""Compiled: the fused multiply-add as a function."""
 
 # mypy: disable-error-code="no-untyped-call, untyped-decorator"
 
@@ -13,9 +13,10 @@ __all__ = ["fma"]
 def fma(a: float, b: float, c: float) -> float:
     """Return a b + c, in a compiled function as one instruction that rounds once.
 
-    Why not leave it to the compiler (fast-math's "contract"): it then decides for itself which product goes with which
-    sum, and decided differently in the process that compiled a loop than for the loop's copy in the cache on disk.
-    Loops compiled without any fast-math have the same bits wherever they run. In plain Python it rounds twice.
+    With fast-math ("contract") the compiler chooses itself which product it fuses with which sum. It chose differently
+    in the process that compiled a loop than for the copy of the loop in the cache on disk. Without fast-math a loop
+    gives the same bits in every process, so the fusion is written explicitly. In plain Python this function rounds
+    twice.
     """
     return a * b + c
 

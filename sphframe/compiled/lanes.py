@@ -1,6 +1,6 @@
-"""Compiled: how many particles a loop takes at once."""
+"""Compiled: the number of particles that a pair loop computes at once."""
 
 __all__ = ["LANES"]
 
 LANES = 8
-"""numbers that the widest vector instructions take at once (AVX-512, double precision)"""
+"""numbers of double precision in the widest vector registers (AVX-512)"""

@@ -1,11 +1,11 @@
-"""Compiled: joins jitted parts (kernel, equation of state, method) into one compiled loop, cached on disk.
+"""Compiled: joins parts (kernel, equation of state, method) into one compiled loop, cached on disk.
 
-Numba caches a function under its qualified name and the time stamp of its file. A function that receives another
-as an argument or in a closure is never found again in that cache, and a change in a called function goes unnoticed.
-So a loop is made here from a *template*: a plain function whose parts are global names. The names are bound in a copy
-of its globals, and the copy's qualified name carries a hash of everything reachable from it (byte code, constants,
-closure values, global values, called functions): the next process finds the compiled loop, and an edited part makes
-a new one.
+Numba caches a function under its qualified name and the time stamp of its file. It never finds a function in that
+cache if the function received another one as an argument or in a closure, and it does not notice that a called function
+has changed. Therefore a loop is written as a *template*: a plain function whose parts are global names. The names are
+bound in a copy of its globals, and the qualified name of the copy contains a hash of everything that the copy can
+reach (byte code, constants, closure values, global values, called functions). So the next process finds the compiled
+loop, and an edited part gives another loop.
 """
 
 import hashlib
@@ -33,7 +33,7 @@ def specialise(
 
     Parameters
     ----------
-    template: a module-level function that uses the names in ``parts`` as globals.
+    template: a function of a module that uses the names in ``parts`` as globals.
     parts: functions (compiled here when they are plain Python) and constants (numbers, strings, booleans, tuples).
     parallel: whether ``numba.prange`` in the template runs on several threads.
 
@@ -60,8 +60,9 @@ def compile_part(function: F) -> F:
 def _compiled_once(function: Any, options: dict[str, Any]) -> Any:
     """Compile a copy of ``function``, and of the compiled functions in its closure, under a name that is its own.
 
-    Numba tells machine code apart by qualified name and a counter that starts anew in every process. Without the hash
-    in the name, a loop from the disk cache may bring a namesake with other closure values, which then runs instead.
+    Numba distinguishes machine code by qualified name and a counter that starts at the same number in every process.
+    Without the hash in the name, a loop from the cache on disk may contain a function of the same name with other
+    closure values, which would then run in its place.
     """
     key = fingerprint(function)
     if key not in _parts:
@@ -72,7 +73,7 @@ def _compiled_once(function: Any, options: dict[str, Any]) -> Any:
 
 
 def _own(item: Any) -> Any:
-    """Return what a closure holds: functions compiled, those made inside another function under names of their own."""
+    """Return an item of a closure; functions are compiled, under unique names if they were made inside a function."""
     if isinstance(item, types.FunctionType):
         return compile_part(item)
     if isinstance(item, Dispatcher) and "<locals>" in item.py_func.__qualname__:

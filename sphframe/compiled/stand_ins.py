@@ -15,7 +15,7 @@ __all__ = ["COLUMNS", "DENSITY", "DIM", "FALLBACK", "GRADIENT", "PRESSURE", "SUP
 
 
 def _not_bound(*_: Any) -> NoReturn:
-    """Raise, since a template was called that ``specialise`` did not bind."""
+    """Raise: the template was called without ``specialise``."""
     raise NotImplementedError("a loop template runs only when specialise() has bound its parts")
 
 

@@ -1,4 +1,4 @@
-"""Equations of state: the linear one."""
+"""Equations of state: the linear equation of state."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Equations of state: Tait's."""
+"""Equations of state: Tait's equation."""
 
 import math
 from dataclasses import dataclass

@@ -10,7 +10,7 @@ __all__ = ["RungeKutta4"]
 @final
 class RungeKutta4(Integrator):
     """k1 = f(t, y0), k2 = f(t + dt/2, y0 + dt/2 k1), k3 = f(t + dt/2, y0 + dt/2 k2), k4 = f(t + dt, y0 + dt k3),
-    y1 = y0 + dt/6 (k1 + 2 k2 + 2 k3 + k4); four evaluations a step.
+    y1 = y0 + dt/6 (k1 + 2 k2 + 2 k3 + k4); four evaluations per step.
 
     Source: E. Hairer, S. P. Norsett, G. Wanner (1993), doi:10.1007/978-3-540-78862-1.
     """

@@ -1,4 +1,4 @@
-"""Integrators: symplectic predictor-corrector."""
+"""Integrators: a symplectic predictor-corrector scheme."""
 
 from typing import ClassVar, final
 
@@ -9,19 +9,19 @@ __all__ = ["Symplectic"]
 
 @final
 class Symplectic(Integrator):
-    """Stormer-Verlet in kick-drift-kick form, second order; one evaluation of each rate a step.
+    """Stormer-Verlet in kick-drift-kick form, second order; one evaluation of each rate per step.
 
-    The velocity is predicted at the half step, positions and densities are carried over the whole step by it, and
+    The velocity is predicted at the half step, positions and densities are advanced over the whole step with it, and
     the velocity is corrected by the new acceleration::
 
         u*   = u0 + dt/2 a0,    x* = x0 + dt/2 u*
         rho1 = rho0 + dt R(x*, u*, rho0),    x1 = x0 + dt u*
         u1   = u* + dt/2 a(x1, rho1, u*)
 
-    Velocity and density take turns, so an undamped acoustic oscillation of frequency omega keeps its amplitude up to
-    omega dt = 2. (Advancing both together at the half step, as many predictor-correctors do, amplifies it by
-    (omega dt)^4/8 a step and relies on dissipation.) Viscous terms see the half-step velocity, and the density
-    diffusion the renormalised density gradient at x0, which is computed together with the acceleration.
+    Velocity and density are advanced alternately, so that an undamped acoustic oscillation of frequency omega keeps its
+    amplitude up to omega dt = 2. (To advance both together at the half step, as many predictor-correctors do, amplifies
+    it by (omega dt)^4/8 per step and needs dissipation.) Viscous terms use the velocity at the half step, and the
+    density diffusion uses the renormalised density gradient at x0, which is computed together with the acceleration.
 
     Source: L. Verlet (1967), doi:10.1103/PhysRev.159.98; in SPH S. Adami, X. Y. Hu, N. A. Adams (2012),
     doi:10.1016/j.jcp.2012.05.005.

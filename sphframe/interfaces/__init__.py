@@ -1,6 +1,7 @@
 """Interfaces: contracts between the rooms, and the classes that authors of components subclass.
 
-Nothing here imports another room (``representation`` is none)."""
+At run time no module here imports another room, except ``representation`` and, when ``operator`` is called, ``boundary``.
+"""
 
 from sphframe.interfaces.boundary_interpolator import BoundaryInterpolator, WeightsFunction
 from sphframe.interfaces.equation_of_state import EquationOfState

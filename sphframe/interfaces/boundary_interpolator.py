@@ -27,8 +27,8 @@ WeightsFunction = Callable[[Array, Array, Array, Array, float, Array, Array], in
 class BoundaryInterpolator(ABC):
     """A linear rule, value(r) = sum_j Phi_j f_j, from the fluid particles around r to a value at r.
 
-    An author declares :attr:`traits` and returns the weights from :meth:`point_weights`. Options of a method are
-    the fields of a frozen dataclass, checked in ``__post_init__``::
+    An author declares :attr:`traits` and returns the function that computes the weights from :meth:`point_weights`.
+    Options of a method are the fields of a frozen dataclass, checked in ``__post_init__``::
 
         @dataclass(frozen=True)
         class Nearest(BoundaryInterpolator):
@@ -44,7 +44,7 @@ class BoundaryInterpolator(ABC):
     @property
     @abstractmethod
     def traits(self) -> Traits:
-        """What the method promises. A plain class attribute will do."""
+        """Properties that the method guarantees. A plain class attribute is sufficient."""
 
     @abstractmethod
     def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
@@ -52,7 +52,7 @@ class BoundaryInterpolator(ABC):
 
         Parameters
         ----------
-        kernel: compiled kernel functions, for methods that need the kernel elsewhere than at the evaluation point.
+        kernel: compiled kernel functions, for methods that need more than its values at the neighbours.
         dim: 2 or 3, a constant of the compiled function.
 
         Returns
@@ -63,14 +63,14 @@ class BoundaryInterpolator(ABC):
         ``offsets`` (n, dim): x_j - r, in m; ``distances`` (n,): their lengths, 0 <= r_j < support;
         ``kernel_values`` (n,): W(r_j, h) in m^-dim; ``volumes`` (n,): V_j in m^dim; ``support``: R in m;
         ``lift`` (dim,): from the evaluation point to the ghost, non-zero only for pressure and only when
-        ``traits.evaluation_point`` is EXTRAPOLATED; ``out`` (n,): where the weights go. n >= 1 always: a point
-        without neighbours is DRY and never reaches the method.
+        ``traits.evaluation_point`` is EXTRAPOLATED; ``out`` (n,): where the weights go. n >= 1 always: the
+        function is not called for a point without neighbours, whose status is DRY.
 
         It returns OK, or TOO_FEW or SINGULAR, in which case ``out`` is overwritten by :meth:`fallback_weights`.
         """
 
     def fallback_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
-        """Return the weights used where :meth:`point_weights` answers TOO_FEW or SINGULAR.
+        """Return the weights used where the function of :meth:`point_weights` returns TOO_FEW or SINGULAR.
 
         The default is the kernel average, Phi_j = W_j V_j / sum_k W_k V_k, which exists for every cloud.
         """
@@ -91,9 +91,9 @@ class BoundaryInterpolator(ABC):
 
         Raises
         ------
-        InputError: when a shape, a dimension or a number is not as it must be.
+        InputError: when a shape, a dimension or a number is not valid.
         """
-        from sphframe.boundary.operator import operator  # the one import that goes up: see pyproject.toml
+        from sphframe.boundary.operator import operator  # from a room above: an exception listed in pyproject.toml
 
         matrix, _ = operator(
             self,
@@ -106,7 +106,7 @@ class BoundaryInterpolator(ABC):
         return matrix
 
     def _repr_html_(self) -> str:
-        """Show the method in a notebook: its options, what it is, and what it promises."""
+        """Return a table for notebooks: options, description and traits of the method."""
         what = (inspect.getdoc(self) or "").partition("\n\n")[0]
         promises = dataclasses.asdict(self.traits).items()
         words = {"True": "yes", "False": "no"}

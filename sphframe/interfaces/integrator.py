@@ -10,17 +10,18 @@ class System(Protocol):
     """An ordinary differential equation dy/dt = f(t, y), as an integrator sees it.
 
     The state y holds positions x, velocities u and (for a fluid) densities; its rates f are velocities, accelerations
-    and density rates. The system owns all arrays: an integrator says what comes next and never touches them.
+    and density rates. The system owns all arrays; an integrator only calls the methods below.
 
-    A one-step scheme of Runge-Kutta type holds the start y0, evaluates all rates and advances; a splitting scheme
-    evaluates density rates and accelerations apart and drifts, kicks and updates densities in turn.
+    A one-step scheme of Runge-Kutta type calls hold, evaluate, accumulate, advance and advance_total; a splitting
+    scheme calls evaluate_density and evaluate_acceleration, and advances position (drift), velocity (kick) and density
+    one after the other.
     """
 
     def evaluate(self, time: float) -> None:
         """Compute all rates f(time, y) of the present state."""
 
     def hold(self) -> None:
-        """Remember the present state as the start y0 of the step and clear the total."""
+        """Store the present state as the start y0 of the step and set the total to zero."""
 
     def advance(self, interval: float) -> None:
         """y = y0 + interval * f."""
@@ -48,7 +49,7 @@ class System(Protocol):
 
 
 class Integrator(ABC):
-    """Advances a :class:`System` by one time step through the stages it asks for."""
+    """Advances a :class:`System` by one time step."""
 
     order: ClassVar[int]
     """order of convergence in the time step"""
@@ -63,5 +64,6 @@ class Integrator(ABC):
     def step(self, system: System, time: float, time_step: float) -> None:
         """Advance ``system`` from ``time`` to ``time + time_step`` (seconds).
 
-        The accelerations that the step before has left (at the start, those of the initial state) may be used.
+        The system still has the accelerations computed last in the previous step (in the first step, those of the
+        initial state).
         """

@@ -35,9 +35,10 @@ class Kernel(ABC):
         """Return the function w'(q)/q."""
 
     def gradient_of_square_function(self) -> ScalarFunction:
-        """Return w'(q)/q as a function of s = q^2, which is what the pair loops know.
+        """Return w'(q)/q as a function of s = q^2, which is what the pair loops compute.
 
-        The default takes the square root of s. A kernel that needs none is faster if it says so here.
+        The default takes the square root of s. A kernel that does not need the root is
+        faster if it overrides this method.
         """
         gradient = self.gradient_function()
 
@@ -52,10 +53,10 @@ class Kernel(ABC):
 
 
 class CompiledKernel(NamedTuple):
-    """What an interpolation method is given of the kernel when its weights are built.
+    """The functions and constants of a kernel that the loops and the weights of a method use.
 
     ``value`` and ``gradient`` are compiled functions of q (see :class:`Kernel`), ``gradient_of_square`` is the latter
-    as a function of q^2, ``support`` is R/h and ``normalisation`` is sigma_d for the dimension at hand. Inside the
+    as a function of q^2; ``support`` is R/h and ``normalisation`` is sigma_d for the dimension at hand. Inside the
     weights function h = R / support.
     """
 

@@ -14,8 +14,8 @@ Array = NDArray[np.float64]
 class Motion(NamedTuple):
     """Position, velocity and acceleration in generalised coordinates.
 
-    Each is an array of displacements of the body from where its walls were drawn, followed by rotations about its
-    centre: in 2-D ``(x, y, angle)`` in (m, m, rad), shape (3,); in 3-D ``(x, y, z)`` in m, shape (3,).
+    Each is an array: the displacement of the body from its initial position, followed by the rotation about its
+    centre. In 2-D it is ``(x, y, angle)`` in (m, m, rad), shape (3,); in 3-D ``(x, y, z)`` in m, shape (3,).
     """
 
     position: Array
@@ -24,13 +24,13 @@ class Motion(NamedTuple):
 
 
 class RigidBody(ABC):
-    """Load -> motion."""
+    """A body that carries walls: it returns its motion for a given load."""
 
     needs_load: ClassVar[bool] = False
     """whether :meth:`motion` uses the load, which costs a sum over the wall's neighbours at every stage"""
 
     centre: tuple[float, ...] = (0.0, 0.0)
-    """centre of rotation as drawn, m, that angles and moments refer to"""
+    """initial centre of rotation, m; angles and moments refer to it"""
 
     @abstractmethod
     def motion(self, time: float, position: Array, velocity: Array, load: Array) -> Motion:
@@ -39,8 +39,8 @@ class RigidBody(ABC):
         Parameters
         ----------
         time: in s.
-        position, velocity: generalised coordinates as advanced by the integrator with the acceleration returned
-            before; zero at the start.
+        position, velocity: generalised coordinates as advanced by the integrator with the accelerations returned
+            earlier; zero at the start.
         load: force and moment of the fluid on the body, (N, N, N m) per metre of width in 2-D, (N, N, N) in 3-D;
             zero when ``needs_load`` is false.
 

@@ -1,7 +1,7 @@
-"""Interfaces: what an interpolation method promises, and what it reports.
+"""Interfaces: what an interpolation method guarantees, and the status that it returns.
 
-A method declares a :class:`Traits`; the verification suite proves each promise. A method answers each evaluation
-point with a :class:`Status`; statuses are counted during a run and never raised inside a compiled loop.
+A method declares its properties as :class:`Traits`, and the verification suite tests each of them. For each evaluation
+point a method returns a :class:`Status`, since it must not raise inside a compiled loop; a run counts the statuses.
 """
 
 import enum
@@ -11,7 +11,7 @@ __all__ = ["DRY", "OK", "SINGULAR", "TOO_FEW", "EvaluationPoint", "Status", "Tra
 
 
 class Status(enum.IntEnum):
-    """What became of one evaluation point. Plain integers of the same names exist for compiled functions."""
+    """Result of the interpolation to one evaluation point; compiled functions use integers of the same names."""
 
     OK = 0
     DRY = 1
@@ -29,8 +29,8 @@ _ADVICE = {
     Status.DRY: "no fluid within the support: pressure 0 (free surface); expected away from the fluid",
     Status.TOO_FEW: "fewer neighbours than the method needs: its fallback was used; expected in spray and thin sheets",
     Status.SINGULAR: (
-        "the neighbours lie so that the method's system is ill-conditioned (for example on one line): its fallback"
-        " was used; expected in thin sheets, elsewhere refine the particle spacing or choose a lower order"
+        "the positions of the neighbours make the method's equations ill-conditioned (for example, all on one line):"
+        " its fallback was used; expected in thin sheets, elsewhere refine the particle spacing or choose a lower order"
     ),
 }
 
@@ -53,7 +53,7 @@ class EvaluationPoint(enum.StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class Traits:
-    """Promises of an interpolation method, value(r) = sum_j Phi_j f_j. What is promised is tested.
+    """Properties that an interpolation method, value(r) = sum_j Phi_j f_j, guarantees; each is tested.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class Traits:
     range_restricted: min f <= value <= max f.
     reproduces_degree: the highest polynomial degree reproduced exactly when the status is OK.
     fewest_points: neighbours needed for status OK in 2-D and in 3-D (in general position).
-    interpolates_particles: at a particle the value is that particle's own.
+    interpolates_particles: at the position of a particle the value is that of the particle.
     rotation_invariant: rotating the cloud leaves the weights unchanged.
     volume_independent: the weights do not depend on the particles' volumes.
     continuous: the weights are continuous in the evaluation point while no particle enters or leaves the support.

@@ -1,4 +1,4 @@
-"""Kernels: the smoothing kernels, their compiled functions, and their evaluation on NumPy arrays."""
+"""Kernels: the smoothing kernels; their compiled functions, and their values on NumPy arrays."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 
 
 def compiled_kernel(kernel: Kernel, dim: int) -> CompiledKernel:
-    """Return what an interpolation method is given of ``kernel`` in ``dim`` dimensions."""
+    """Return the compiled functions and the constants of ``kernel`` in ``dim`` dimensions."""
     return CompiledKernel(
         compile_part(kernel.value_function()),
         compile_part(kernel.gradient_function()),

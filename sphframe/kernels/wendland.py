@@ -42,8 +42,8 @@ class WendlandC2(Kernel):
         w(q) = (1 - q/2)^4 (1 + 2q),   w'(q)/q = -5 (1 - q/2)^3,   q < 2
         sigma_d = 3/4, 7/(4 pi), 21/(16 pi)
 
-    It is positive definite in up to three dimensions, which keeps particles from pairing. One function serves all
-    dimensions: in 1-D too it is the one for three dimensions (Wendland's own for 1-D is of a lower degree).
+    It is positive definite in up to three dimensions, which keeps particles from pairing. The same function
+    is used in 1-D, for which Wendland also gives one of a lower degree.
 
     Source: Wendland (1995), doi:10.1007/BF02123482; Dehnen & Aly (2012), doi:10.1111/j.1365-2966.2012.21439.x.
 
@@ -77,8 +77,8 @@ class WendlandC4(Kernel):
         w(q) = (1 - q/2)^6 (1 + 3q + 35/12 q^2),   w'(q)/q = -14/3 (1 - q/2)^5 (1 + 5q/2),   q < 2
         sigma_d = 27/32, 9/(4 pi), 495/(256 pi)
 
-    It is narrower than C2 at the same cut-off: choose ``smoothing_length_ratio`` 1.6 or more. In 1-D too it is the
-    function for three dimensions.
+    It is narrower than C2 at the same cut-off: choose ``smoothing_length_ratio`` 1.6 or more. The same
+    function is used in 1-D.
 
     Source: Wendland (1995), doi:10.1007/BF02123482; Dehnen & Aly (2012), doi:10.1111/j.1365-2966.2012.21439.x.
 

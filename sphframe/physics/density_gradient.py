@@ -1,4 +1,4 @@
-"""Physics: the renormalised density gradient (Eq. 6 of the paper, which its text leaves out).
+"""Physics: the renormalised density gradient (Eq. 6 of the paper, which is missing in its text).
 
 ::
 

@@ -21,6 +21,6 @@ __all__ = ["pair_stress"]
 def pair_stress(pressure_sum, viscosity, approach, distance2):  # type: ignore[no-untyped-def]
     """Return -(p_i + p_j) + alpha h c0 rho0 pi_ij, in Pa, the factor of grad_i W_ij V_j.
 
-    ``viscosity`` is alpha h c0 rho0 and ``approach`` is (u_j - u_i).x_ji; two particles at one place have none.
+    ``viscosity`` is alpha h c0 rho0 and ``approach`` is (u_j - u_i).x_ji; it is zero for two particles at one place.
     """
     return viscosity * approach / (distance2 if distance2 > 0.0 else 1.0) - pressure_sum

@@ -1,4 +1,4 @@
-"""Physics: the numbers that the loops need, in one tuple that compiled functions read."""
+"""Physics: the constants that the loops need, in one tuple that compiled functions can read."""
 
 from typing import NamedTuple
 
@@ -8,7 +8,7 @@ __all__ = ["LoopParameters"]
 
 
 class LoopParameters(NamedTuple):
-    """Constants of a run, as the terms of the equations use them; d is the number of dimensions.
+    """Constants of a run in the form in which the loops use them; d is the number of dimensions.
 
     Attributes
     ----------

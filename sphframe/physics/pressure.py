@@ -1,4 +1,4 @@
-"""Physics: pressure from the equation of state, the volume V = m / rho, and at first the density from the pressure."""
+"""Physics: pressure from the equation of state, the volume V = m / rho, and the initial density from the pressure."""
 
 import numba
 

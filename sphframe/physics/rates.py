@@ -1,7 +1,7 @@
-"""Physics: the sums over a particle's neighbours in one loop; each term is explained in its own file.
+"""Physics: the sums over the neighbours of all particles in one loop; each term is explained in its own file.
 
-With CONTINUITY a specialised loop evaluates the density rate, which needs the density gradient; without, the
-acceleration and the density gradient at once: half of the cost is the pair's distance and kernel.
+With CONTINUITY the compiled loop computes the density rate from a given density gradient. Without it, the loop computes
+the acceleration and the density gradient together, since half of the cost of a pair is its distance and kernel.
 """
 
 import numba
@@ -21,12 +21,14 @@ CONTINUITY = True
 def fluid_sums(  # type: ignore[no-untyped-def]
     rows, lists, fluid_counts, ghost_counts, parameters, gradient, rates
 ):
-    """Write the velocity to ``rates`` (n, 2 dim + 1); with CONTINUITY the density rate, by the ``gradient`` (n, dim)
-    that is there, to its last column; without, the acceleration to those between, and <grad rho> to ``gradient``.
+    """Write velocities and, depending on CONTINUITY, density rates or accelerations to ``rates`` (n, 2 dim + 1).
 
-    ``parameters`` are :class:`LoopParameters`. A row of ``lists`` serves LANES consecutive particles, which
-    stand side by side in vector registers: each neighbour is read once and meets all of them at once. The innermost
-    loops run over these lanes, and their local arrays become registers; a particle's sums keep the order of its list.
+    With CONTINUITY the density rate is computed with the given ``gradient`` (n, dim). Without it, the acceleration is
+    computed, and <grad rho> is written to ``gradient``. ``parameters``: :class:`LoopParameters`.
+
+    A row of ``lists`` is the common list of LANES consecutive particles. Each neighbour is read once and then
+    interacts with all of them: the innermost loops run over these particles, and the compiler turns the loops into
+    vector instructions and the local arrays into registers. The sums of a particle keep the order of the list.
     """
     limit = parameters.support * parameters.support
     per_h2 = SUPPORT * SUPPORT / limit
@@ -46,7 +48,7 @@ def fluid_sums(  # type: ignore[no-untyped-def]
         xx, xy, yy = local_array(LANES), local_array(LANES), local_array(LANES)
         xz, yz, zz = local_array(LANES), local_array(LANES), local_array(LANES)
         for a in range(LANES):
-            i = first + min(a, present - 1)  # lanes that are left over do the last particle's work again
+            i = first + min(a, present - 1)  # unused lanes repeat the last particle
             x[a] = rows[i, 0]
             y[a] = rows[i, 1]
             z[a] = rows[i, COLUMNS.z]
@@ -74,7 +76,7 @@ def fluid_sums(  # type: ignore[no-untyped-def]
                 density_j = rows[j, COLUMNS.density]
                 pressure_j = rows[j, COLUMNS.pressure]
                 scale = -parameters.gradient_scale * rows[j, COLUMNS.volume]
-                m = j if j < n else 0  # ghosts have no gradient, and what is diffused with them is not read
+                m = j if j < n else 0  # ghosts have no gradient; their diffusion is computed but not used
                 gxj = gradient[m, 0]
                 gyj = gradient[m, 1]
                 gzj = gradient[m, COLUMNS.z]
@@ -86,7 +88,7 @@ def fluid_sums(  # type: ignore[no-untyped-def]
                         dz = zj - z[a]
                         r2 = fma(dz, dz, r2)
                     weight = GRADIENT(r2 * per_h2) * scale
-                    weight = weight if r2 < limit else 0.0  # a choice, not a branch: the loop vectorises
+                    weight = weight if r2 < limit else 0.0  # a selection, not a branch, so that the loop vectorises
                     approach = fma(uj - u[a], dx, (vj - v[a]) * dy)
                     if DIM == 3:
                         approach = fma(wj - w[a], dz, approach)
@@ -115,7 +117,7 @@ def fluid_sums(  # type: ignore[no-untyped-def]
                             xz[a] = fma(wx, dz, xz[a])
                             yz[a] = fma(wy, dz, yz[a])
                             zz[a] = fma(weight * dz, dz, zz[a])
-            if kind == 0:  # what follows is of the fluid alone
+            if kind == 0:  # the sums over the fluid alone are complete
                 for a in range(present):
                     i = first + a
                     if CONTINUITY:

@@ -6,7 +6,8 @@
     pressure(x) = sum_j W(x - x_j) V_j [p_j - rho0 g (z - z_j)] / filling(x)
 
 The kernel average with the hydrostatic lift from each particle to the point is exact on a hydrostatic field also at a
-wall, where half of the support is empty; it is the same for every interpolation method under comparison.
+wall, where half of the support is empty. It does not depend on the interpolation method, so that methods can be
+compared.
 """
 
 import math

@@ -5,7 +5,7 @@
     F = -sum_i V_i sum_(g in wall) [-(p_i + p_g) + alpha h c0 rho0 pi_ig] grad_i W_ig V_g,    i in fluid
 
 and its moment about the centre of the wall's body. In the corner between two walls the component of a ghost's force
-along the normal of the other wall is that wall's (see :mod:`sphframe.boundary.corners`). Particles are summed in a
+along the normal of the other wall acts on that wall (see :mod:`sphframe.boundary.corners`). Particles are summed in a
 fixed number of chunks, and the chunks in their order, so the result has the same bits on any number of threads.
 
 Departs from the paper: its Eq. 29 takes a pressure difference, which is zero on a hydrostatic wall.
@@ -38,7 +38,7 @@ def wall_reaction(  # type: ignore[no-untyped-def]
     """Write force and moment (walls, 3) to ``loads``: (N, N, N m) per metre in 2-D, (N, N, N) in 3-D.
 
     ``other_walls`` (g,) and ``other_normals`` (g, dim): the walls that share corner ghosts, -1 for all other ghosts;
-    ``centres`` (walls, dim) is what moments refer to; ``partial`` (chunks, walls, 3) is scratch.
+    ``centres`` (walls, dim): the points to which moments refer, m; ``partial`` (chunks, walls, 3) is scratch.
     """
     limit = parameters.support * parameters.support
     per_h2 = SUPPORT * SUPPORT / limit

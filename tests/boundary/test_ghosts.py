@@ -23,7 +23,7 @@ SPACING = 0.1
 
 
 class Still(RigidBody):
-    """A body that stands still but is being accelerated."""
+    """A body at its initial position that has a velocity and an acceleration."""
 
     def __init__(self, acceleration=(0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0)):
         self.acceleration, self.velocity = np.array(acceleration, float), np.array(velocity, float)
@@ -141,13 +141,13 @@ def test_velocities_beside_one_face(method, slip):
 @pytest.mark.parametrize("slip", ["free", "no"])
 @pytest.mark.parametrize("method", ["improved-shepard", "normalized", "mls-linear"])
 def test_with_the_mirror_lift_a_wall_under_uniform_pressure_does_no_work(method, slip, dim):
-    """sum_j V_j (P grad W_jG).(u_j + u_G - 2 u_wall) = 0 of every ghost, P onto what it reverses; corners, too."""
+    """sum_j V_j (P grad W_jG).(u_j + u_G - 2 u_wall) = 0 of every ghost, with P on the reversed components."""
     basin = Basin(method, dim, lift="mirror", slip=slip, body=Still(velocity=(0.5, -0.25, 0.125)))
     c = basin.columns
     fluid = basin.rows[: basin.n]
     fluid[:, c.velocity] = np.random.default_rng(1).normal(size=(basin.n, dim))
     _, position, velocity, _, _ = basin.fill()
-    offset = fluid[:, c.position] - position[:, None]  # the wall turns, too, in 2-D
+    offset = fluid[:, c.position] - position[:, None]  # in 2-D the wall also rotates
     q = np.linalg.norm(offset, axis=2) / basin.h
     slope = np.exp(-(q**2)) * (q < basin.kernel.support) * SPACING**dim
     reversed_part = 0.5 * (np.eye(dim) - basin.boundary.reflection)
@@ -168,7 +168,7 @@ def test_with_the_mirror_lift_a_uniform_flow_is_mirrored(method):
     np.testing.assert_allclose(velocity[below], np.broadcast_to([3.0, 2.0], velocity[below].shape), rtol=1e-9)
 
 
-def test_a_wall_does_not_pull():
+def test_negative_pressures_are_clipped_to_zero():
     basin = Basin("normalized")
     basin.rows[: basin.n, basin.columns.pressure] = -1e5
     _, _, _, pressure, _ = basin.fill()

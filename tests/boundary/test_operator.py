@@ -1,4 +1,4 @@
-"""The operator of an interpolation method: against plain NumPy, and its border checks."""
+"""The operator of an interpolation method: compared with plain NumPy, and the checks of its input."""
 
 import numpy as np
 import pytest
@@ -183,7 +183,7 @@ def test_all_neighbours_at_the_cut_off_count_alike(name):
         ("sfdi-printed", 1, TOO_FEW),
     ],
 )
-def test_starved_points_are_reported_and_fall_back(name, count, status):
+def test_points_with_too_few_neighbours_use_the_fallback(name, count, status):
     positions = np.random.default_rng(3).uniform(-0.01, 0.01, (count, 2))
     matrix, statuses = operator(METHODS[name][0], [0.0, 0.0], positions, 1e-4, smoothing_length=H)
     average, _ = operator(METHODS["normalized"][0], [0.0, 0.0], positions, 1e-4, smoothing_length=H)

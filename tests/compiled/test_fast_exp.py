@@ -1,4 +1,4 @@
-"""The exponential of the kernels: as exact as it says, the same compiled and in plain Python."""
+"""The exponential of the kernels: its error, and the same values compiled and in plain Python."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Specialised loops: told apart by their parts, found again on disk, made anew when a part changes."""
+"""Specialised loops: distinguished by their parts, found on disk, compiled again when a part changes."""
 
 import subprocess
 import sys
@@ -34,7 +34,7 @@ def run(loop):
     return values[0]
 
 
-def test_parts_of_equal_name_are_told_apart():
+def test_parts_of_equal_name_are_distinguished():
     loops = [specialise(template, {"PART": power(k), "OFFSET": 1.0}, parallel=False) for k in (1, 2, 3)]
     assert [run(loop) for loop in loops] == [4.0, 10.0, 28.0]
     assert run(specialise(template, {"PART": power(2), "OFFSET": 5.0}, parallel=False)) == 14.0
@@ -108,4 +108,4 @@ def test_second_process_finds_the_loop_and_an_edited_part_makes_a_new_one(tmp_pa
     assert in_new_process(tmp_path) == (9.0, 1), "the second process must find the compiled loop"
     assert files() == once, "the cache must not grow when nothing changed"
     write("x + 1.0")
-    assert in_new_process(tmp_path) == (4.0, 0), "an edited part must be compiled anew"
+    assert in_new_process(tmp_path) == (4.0, 0), "an edited part must be compiled again"

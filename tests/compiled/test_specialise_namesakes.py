@@ -1,4 +1,4 @@
-"""Two parts of one name but different closure values, each from the disk cache, must not run in each other's place."""
+"""Two parts with one name but different closure values, loaded from the cache on disk, must not be confused."""
 
 import os
 import subprocess

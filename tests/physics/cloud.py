@@ -47,7 +47,7 @@ class Cloud:
         }
 
     def grad_kernel(self, x_ji):
-        """grad_i W_ij, (n, dim), from the offsets x_j - x_i: the slow way."""
+        """grad_i W_ij, (n, dim), from the offsets x_j - x_i, in plain NumPy."""
         r = np.linalg.norm(x_ji, axis=1)
         factor = np.array([self.kernel.gradient(q) if q < self.kernel.support else 0.0 for q in r / self.h])
         return -self.gradient_scale * factor[:, None] * x_ji

@@ -1,4 +1,4 @@
-"""Every term of the equations against a slow plain-NumPy version, and the exact properties of physics."""
+"""Every term of the equations compared with plain NumPy, and properties of physics that hold exactly."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ from .cloud import make_cloud
 
 
 def neighbours(cloud, i):
-    """All other particles: those beyond the support have no weight."""
+    """All other particles, fluid and ghosts; those beyond the support have no weight."""
     others = np.delete(np.arange(len(cloud.rows)), i)
     return others[others < cloud.fluid_count], others[others >= cloud.fluid_count]
 
@@ -111,8 +111,8 @@ def test_diffusion_keeps_the_volume_weighted_density(dim, seed):
 def test_spray_never_gives_nan(dim, count):
     cloud = make_cloud(dim, 0, ghosts=False, cells=2)
     c = Columns.of(dim)
-    cloud.rows[:, c.position] *= 100.0  # too far apart to see each other
-    for k in range(count):  # but for a few on one line, two of them at one place
+    cloud.rows[:, c.position] *= 100.0  # too far apart to be neighbours
+    for k in range(count):  # except a few on one line, two of them at one place
         cloud.rows[k, c.position] = [0.01 * (k // 2), *[0.0] * (dim - 1)]
     gradient = cloud.density_gradient()
     rates = cloud.rates(gradient, diffusion=1.0, viscosity=1.0)
