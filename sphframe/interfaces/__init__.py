@@ -1,6 +1,6 @@
 """Interfaces: contracts between the rooms, and the classes that authors of components subclass.
 
-At run time no module here imports another room, except ``representation`` and, in the method ``operator``, ``boundary``.
+At run time no module imports another room, except ``representation`` and, in the method ``operator``, ``boundary``.
 """
 
 from sphframe.interfaces.boundary_interpolator import BoundaryInterpolator, WeightsFunction
