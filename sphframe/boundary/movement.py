@@ -14,6 +14,12 @@ import numba
 __all__ = ["move_ghosts"]
 
 
+@numba.njit(inline="always")
+def _turned(x, y, cos, sin):  # type: ignore[no-untyped-def]
+    """Return the vector (x, y) turned by an angle with the given cosine and sine."""
+    return cos * x - sin * y, sin * x + cos * y
+
+
 @numba.njit(cache=True, error_model="numpy")
 def move_ghosts(  # type: ignore[no-untyped-def]
     drawn, drawn_mirror, drawn_reflection, ghost_body, centres, positions, velocities, accelerations,
@@ -33,16 +39,10 @@ def move_ghosts(  # type: ignore[no-untyped-def]
             sin = math.sin(positions[b, 2])
             omega = velocities[b, 2]
             alpha = accelerations[b, 2]
-            x = drawn[g, 0] - centres[b, 0]
-            y = drawn[g, 1] - centres[b, 1]
-            rx = cos * x - sin * y
-            ry = sin * x + cos * y
+            rx, ry = _turned(drawn[g, 0] - centres[b, 0], drawn[g, 1] - centres[b, 1], cos, sin)
+            mx, my = _turned(drawn_mirror[g, 0] - centres[b, 0], drawn_mirror[g, 1] - centres[b, 1], cos, sin)
             position[g, 0] = centres[b, 0] + positions[b, 0] + rx
             position[g, 1] = centres[b, 1] + positions[b, 1] + ry
-            x = drawn_mirror[g, 0] - centres[b, 0]
-            y = drawn_mirror[g, 1] - centres[b, 1]
-            mx = cos * x - sin * y
-            my = sin * x + cos * y
             mirror[g, 0] = centres[b, 0] + positions[b, 0] + mx
             mirror[g, 1] = centres[b, 1] + positions[b, 1] + my
             # the wall's kinematics are taken at the foot point, half-way between ghost and mirror point
