@@ -16,7 +16,7 @@ from sphframe.boundary.operator import operator
 from sphframe.cases import Case
 from sphframe.errors import SimulationError
 from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint, Kernel, Status
-from sphframe.registry import available
+from sphframe.registry import find
 from sphframe.simulation.system import FluidSystem
 
 __all__ = ["Tolerated", "check_state", "check_time_step", "check_traits"]
@@ -84,12 +84,9 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array) -> 
         )
     if guards.fallbacks == "stop":
         _check_fallbacks(system.boundary, case)
-    return Tolerated(_outside(rows[:n, columns.position], lower, upper) if outside else None, out_of_range)
-
-
-def _outside(position: Array, lower: Array, upper: Array) -> NDArray[np.bool_]:
-    gone: NDArray[np.bool_] = np.any((position < lower) | (position > upper), axis=1)
-    return gone
+    position = rows[:n, columns.position]
+    gone = np.any((position < lower) | (position > upper), axis=1) if outside else None
+    return Tolerated(gone, out_of_range)
 
 
 def _check_ghosts(system: FluidSystem, case: Case) -> None:
@@ -99,7 +96,7 @@ def _check_ghosts(system: FluidSystem, case: Case) -> None:
         row, columns = system.rows[system.fluid_count + g], system.columns
         raise SimulationError(
             f"ghost {g} got pressure {row[columns.pressure]:g} Pa, velocity {row[columns.velocity]} m/s and status"
-            f" {boundary.statuses[g]} from interpolator {_origin('interpolators', case.interpolator.name)}; likely"
+            f" {boundary.statuses[g]} from {find('interpolators', case.interpolator.name).label}; likely"
             f" causes: weights that are not finite (sphframe verify {case.interpolator.name}), or"
             f" {_STEP_IS_TOO_LONG}",
             place=tuple(float(x) for x in boundary.position[g]),
@@ -174,18 +171,11 @@ def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator, kernel
         if np.any(wrong):
             g = int(np.argmax(wrong))
             raise SimulationError(
-                f"interpolator {_origin('interpolators', case.interpolator.name)} returned {what} for ghost {g}"
+                f"{find('interpolators', case.interpolator.name).label} returned {what} for ghost {g}"
                 f" (lowest {lowest[g]:.4g}, sum {sums[g]:.6g}); fix the method or its traits: sphframe verify"
                 f" {case.interpolator.name} shows a small example",
                 place=tuple(float(x) for x in points[g]),
             )
-
-
-def _origin(kind: str, name: str) -> str:
-    for entry in available(kind):
-        if entry.name == name:
-            return f"{name!r} of {entry.distribution} {entry.version}"
-    return repr(name)
 
 
 @numba.njit(parallel=True, cache=True)
