@@ -62,10 +62,8 @@ def operator(
     ----------
     interpolator: the method.
     points: (m, dim) or (dim,), m: evaluation points, dim 2 or 3.
-    positions: (n, dim), m: fluid particles.
-    volumes: (n,) or one number, m^dim: V_j = m_j / rho_j.
-    smoothing_length: h, m.
-    kernel: the name of a kernel or a kernel.
+    positions: (n, dim), m: fluid particles; ``volumes``: (n,) or one number, m^dim: V_j = m_j / rho_j.
+    smoothing_length: h, m; ``kernel``: the name of a kernel or a kernel.
     lift: (m, dim) or (dim,), m: from each point to its ghost, for a method that extrapolates; zero by default.
 
     Returns
@@ -99,8 +97,7 @@ def operator(
     chosen = create("kernels", kernel) if isinstance(kernel, str) else kernel
     dim, support = points.shape[1], chosen.support * smoothing_length
     starts, members = _search(points, positions, support)
-    entries = np.zeros(len(members))
-    statuses = np.empty(len(points), dtype=np.int64)
+    entries, statuses = np.zeros(len(members)), np.empty(len(points), dtype=np.int64)
     weights_loop(interpolator, chosen, dim)(
         positions, volumes, points, lifts, starts, members, support,
         chosen.normalisation(dim) / smoothing_length**dim,

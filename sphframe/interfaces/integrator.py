@@ -7,7 +7,7 @@ __all__ = ["Integrator", "System"]
 
 
 class System(Protocol):
-    """An ordinary differential equation dy/dt = f(t, y), as an integrator sees it.
+    """The ordinary differential equation dy/dt = f(t, y) that an integrator solves.
 
     The state y holds positions x, velocities u and (for a fluid) densities; its rates f are velocities, accelerations
     and density rates. The system owns all arrays; an integrator only calls the methods below.
