@@ -1,4 +1,4 @@
-"""CLI: ``sphframe reproduce``, and how the progress of many runs is shown."""
+"""CLI: ``sphframe reproduce``, and the display of the progress of many runs."""
 
 import time
 from collections.abc import Iterator, Sequence
@@ -18,7 +18,7 @@ from sphframe.studies.engine import Watch
 __all__ = ["reproduce_command", "shown_progress"]
 
 _LINE_EVERY = 60.0
-"""s between lines about what is under way, where there is no terminal"""
+"""s between lines about the running tasks, where there is no terminal"""
 
 
 def reproduce_command(
@@ -56,7 +56,7 @@ def reproduce_command(
 
 @contextmanager
 def shown_progress(log: Console) -> Iterator[Watch]:
-    """Show the progress of the whole: on a terminal a bar, elsewhere a line for each run that is done."""
+    """Show the progress of all runs: on a terminal a bar, elsewhere a line for each finished run."""
     if log.is_terminal:
         columns = (BarColumn(), TextColumn("{task.percentage:3.0f}% {task.description}"))
         with Bar(*columns, TimeElapsedColumn(), TimeRemainingColumn(), console=log, transient=True) as bar:
@@ -76,7 +76,7 @@ def shown_progress(log: Console) -> Iterator[Watch]:
         if progress.last is not None:
             log.print(f"{progress.done} of {progress.total} done: {progress.last}", markup=False)
         elif progress.done == progress.kept and not progress.running:
-            log.print(f"{progress.total} runs, {progress.kept} of them done before", markup=False)
+            log.print(f"{progress.total} runs, {progress.kept} of them finished before", markup=False)
         elif time.monotonic() - told > _LINE_EVERY:
             log.print(f"{100.0 * progress.part:.0f}%  {_state(progress)}", markup=False)
         else:

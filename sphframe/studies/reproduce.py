@@ -21,8 +21,8 @@ from sphframe.studies.study import Study, installed_study
 __all__ = ["reproduce"]
 
 _QUICK = (
-    "This is the quick version, at coarse resolutions and for short times: it shows that everything works, and its"
-    " numbers and verdicts are not those of the paper's resolutions."
+    "This is the quick version, at coarse resolutions and for short times. It shows that everything works; its numbers"
+    " and verdicts differ from those of the whole study."
 )
 
 
@@ -57,7 +57,7 @@ def reproduce(
     InputError: a section is unknown, or something is not installed.
     PluginError: the study is not installed or cannot be used.
     OutputError: the folder cannot be written.
-    SphframeError: what a run raised that is not a result of its own.
+    SphframeError: a run raised an error that is not a result in itself.
     """
     chosen_study = installed_study(study) if isinstance(study, str) else study
     sections = _chosen(chosen_study.sections(), only)
@@ -108,7 +108,7 @@ def _chapter(section: Section, files: Mapping[str, Path], series: Reference, qui
 
 
 def _stopped(section: str, runs: Mapping[str, xr.Dataset]) -> Table:
-    """The runs that did not come to their end, and what they said."""
+    """Return a table of the runs that stopped early, with the messages of their guards."""
     rows = [
         {"run": label, "what it said": dataset.attrs["run_message"]}
         for label, dataset in runs.items()
@@ -121,5 +121,5 @@ def _open(path: Path) -> xr.Dataset:
     try:
         return open_dataset(path)
     except InputError:
-        with xr.open_dataset(path, engine="netcdf4") as dataset:  # of measured times
+        with xr.open_dataset(path, engine="netcdf4") as dataset:  # measured times, which are not the output of a run
             return dataset.load()

@@ -2,10 +2,9 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import ClassVar
 
 from sphframe.errors import InputError, PluginError
-from sphframe.registry import available, create, load
+from sphframe.registry import available, create
 from sphframe.studies.section import Section
 
 __all__ = ["Study", "installed_study"]
@@ -14,16 +13,19 @@ __all__ = ["Study", "installed_study"]
 class Study(ABC):
     """A set of runs with the tables, figures and claims that are derived from them, such as those of a paper.
 
-    A distribution registers its subclass under the entry-point group ``sphframe.studies``.
-
-    Attributes
-    ----------
-    title: title of the report.
-    source: first paragraph of the report: what is studied, with the DOI of the publication if there is one.
+    A distribution registers its subclass under the entry-point group ``sphframe.studies``. ``title`` and ``source`` may
+    be class attributes.
     """
 
-    title: ClassVar[str]
-    source: ClassVar[str]
+    @property
+    @abstractmethod
+    def title(self) -> str:
+        """Title of the report."""
+
+    @property
+    @abstractmethod
+    def source(self) -> str:
+        """First paragraph of the report: what is studied, with the DOI of the publication if there is one."""
 
     @abstractmethod
     def sections(self) -> Sequence[Section]:
@@ -52,6 +54,6 @@ def installed_study(name: str | None = None) -> Study:
 
 def _title(name: str) -> str:
     try:
-        return str(load("studies", name).title)
+        return installed_study(name).title
     except PluginError as error:
         return f"cannot be used: {error}"

@@ -1,6 +1,4 @@
-import importlib.util
-import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType
 
@@ -10,15 +8,9 @@ pytest.importorskip("distributed")
 
 
 @pytest.fixture(scope="session")
-def tiny() -> ModuleType:
-    """The module of the tiny section."""
-    spec = importlib.util.spec_from_file_location("sphframe_tiny", Path(__file__).with_name("tiny.py"))
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
+def tiny(module_at: Callable[[Path], ModuleType]) -> ModuleType:
+    """The module of the tiny study."""
+    return module_at(Path(__file__).with_name("tiny.py"))
 
 
 @pytest.fixture(scope="session")

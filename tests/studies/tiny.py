@@ -1,6 +1,6 @@
-"""A section whose runs take a second, and pictures of what it shows.
+"""A study of one section whose runs take a second.
 
-Run as a program, ``tiny.py OUTPUT``, it reproduces that section on two local workers.
+``python tiny.py OUTPUT`` carries it out on two local workers.
 """
 
 import sys
@@ -11,14 +11,23 @@ from typing import Any
 import xarray as xr
 
 from sphframe.cases.hydrostatic_tank import HydrostaticTank
-from sphframe.studies import Section, Study, reproduce
-from sphframe.studies.chapter import Chapter, Claim, Table
-from sphframe.studies.drawing import new_figure, picture, tidy
-from sphframe.studies.series import Reference
-from sphframe.studies.tasks import RunTask, Task
+from sphframe.studies import (
+    Chapter,
+    Claim,
+    Reference,
+    RunTask,
+    Section,
+    Study,
+    Table,
+    Task,
+    new_figure,
+    picture,
+    reproduce,
+    tidy,
+)
 
 HOSTILE = "<script>alert('x')</script> & \"quoted\""
-"""a name as it might come from a plugin or a file"""
+"""a name that must be escaped, as it may come from a plugin or a file"""
 
 
 def tank(**parameters: Any) -> HydrostaticTank:
@@ -35,7 +44,7 @@ def tasks(quick: bool) -> list[Task]:
 
 
 def chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) -> Chapter:
-    """A table and a figure of each kind, with names that must be escaped."""
+    """A table, and figures as SVG and as PNG."""
     reference.get("nothing_of_that_name")
     figure = new_figure(4.0, 3.0)
     axes = figure.subplots()
@@ -60,7 +69,7 @@ def chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) -
 
 
 class Tiny(Study):
-    """The study of that section, or of others."""
+    """The study of that section, or of those that are given."""
 
     title = "Tiny tanks"
     source = "Nothing is published."
