@@ -110,7 +110,7 @@ def _chapter(section: Section, files: Mapping[str, Path], series: Reference, qui
 def _stopped(section: str, runs: Mapping[str, xr.Dataset]) -> Table:
     """Return a table of the runs that stopped early, with the messages of their guards."""
     rows = [
-        {"run": label, "what it said": dataset.attrs["run_message"]}
+        {"run": label, "message": dataset.attrs["run_message"]}
         for label, dataset in runs.items()
         if dataset.attrs.get("completed", "yes") != "yes"
     ]

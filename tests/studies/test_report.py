@@ -102,5 +102,5 @@ def test_a_run_that_was_stopped_says_why(tiny: ModuleType, cluster: str, tmp_pat
     with (tmp_path / "tables" / "broken_tank_stopped.csv").open(newline="") as file:
         (row,) = csv.DictReader(file)
     assert row["run"] == "broken"
-    assert "courant_number" in row["what it said"]
-    assert row["what it said"] in browser.Page(report.read_text()).text
+    assert "courant_number" in row["message"]
+    assert row["message"] in browser.Page(report.read_text()).text
