@@ -111,7 +111,7 @@ def test_methods_of_this_project(name: str) -> None:
     method = sphframe.create("interpolators", name)
     page = shown(method)
     assert repr(method) in page.text
-    assert "promise" in page.cells
+    assert "trait" in page.cells
 
 
 def test_listing(install) -> None:  # type: ignore[no-untyped-def]

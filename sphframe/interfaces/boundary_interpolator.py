@@ -108,10 +108,10 @@ class BoundaryInterpolator(ABC):
     def _repr_html_(self) -> str:
         """Return a table for notebooks: options, description and traits of the method."""
         what = (inspect.getdoc(self) or "").partition("\n\n")[0]
-        promises = dataclasses.asdict(self.traits).items()
+        traits = dataclasses.asdict(self.traits).items()
         words = {"True": "yes", "False": "no"}
-        rows = [(name.replace("_", " "), words.get(str(value), value)) for name, value in promises]
-        return html_table(repr(self), ["promise", ""], rows, about=what)
+        rows = [(name.replace("_", " "), words.get(str(value), value)) for name, value in traits]
+        return html_table(repr(self), ["trait", ""], rows, about=what)
 
 
 def kernel_average(
