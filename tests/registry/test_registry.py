@@ -152,10 +152,10 @@ def test_check_tries_everything_and_a_mended_plugin_is_no_longer_broken(install:
     by_name = {e.name: e.error for e in registry.check("hooks")}
     assert (by_name["bad"], by_name["good"]) == ("RuntimeError", None)
 
-    (folder / "bad_two.py").write_text("Bad = 'mended now'")
+    (folder / "bad_two.py").write_text("Bad = 'fixed now'")
     registry.clear()
 
-    assert registry.load("hooks", "bad") == "mended now"
+    assert registry.load("hooks", "bad") == "fixed now"
     assert entry("hooks", "bad").error is None
 
 
