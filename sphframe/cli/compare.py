@@ -4,12 +4,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import xarray as xr
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from sphframe.cli.reproduce import shown_progress
 from sphframe.cli.run import console_log
+from sphframe.cli.studies_progress import shown_progress
 from sphframe.errors import InputError
 from sphframe.studies import compare
 from sphframe.studies.report import shown
@@ -29,8 +30,8 @@ def compare_command(
     scheduler: str | None,
     output: Path,
 ) -> None:
-    """Compare methods over resolutions, print the table and say what was written."""
-    with shown_progress(console_log()) as watch:
+    """Compare methods over resolutions; print the table and the paths of the files that were written."""
+    with shown_progress(console_log()) as on_progress:
         comparison = compare(
             case,
             [name.strip() for name in interpolators.split(",") if name.strip()],
@@ -42,10 +43,16 @@ def compare_command(
             probe=probe,
             workers=workers,
             scheduler=scheduler,
-            watch=watch,
+            on_progress=on_progress,
         )
     screen = Console(highlight=False, soft_wrap=True)
-    dataset = comparison.dataset
+    screen.print(_table(comparison.dataset))
+    screen.print(f"error: {comparison.dataset['error'].attrs['long_name']}", markup=False)
+    for path in (output / "comparison.nc", comparison.report):
+        screen.print(f"wrote {path}", markup=False)
+
+
+def _table(dataset: xr.Dataset) -> Table:
     table = Table(box=None, pad_edge=False)
     for head in ("method", "spacing (m)", "error", "order", "wall clock (s)", "fallback (%)", "to the end"):
         table.add_column(head)
@@ -55,10 +62,7 @@ def compare_command(
             numbers = (float(one[name]) for name in ("error", "order", "wall_clock", "fallback"))
             done = "yes" if int(one["completed"]) else "no"
             table.add_row(Text(str(method)), f"{spacing:g}", *(shown(number) for number in numbers), done)
-    screen.print(table)
-    screen.print(f"error: {dataset['error'].attrs['long_name']}", markup=False)
-    for path in (output / "comparison.nc", comparison.report):
-        screen.print(f"wrote {path}", markup=False)
+    return table
 
 
 def _numbers(given: object) -> Sequence[float]:
@@ -71,5 +75,6 @@ def _numbers(given: object) -> Sequence[float]:
         return [float(value) for value in (given if isinstance(given, list) else [given])]  # type: ignore[arg-type]
     except (TypeError, ValueError):
         raise InputError(
-            f"particle_spacing={given}: give numbers with commas, such as --set particle_spacing=0.02,0.01,0.005"
+            f"particle_spacing={given}: give numbers separated by commas, such as"
+            " --set particle_spacing=0.02,0.01,0.005"
         ) from None

@@ -1,7 +1,8 @@
-"""Studies: carries out tasks on dask.distributed, each once.
+"""Studies: carries out tasks with dask.distributed, each once.
 
-By default a cluster of this machine's cores, one process a worker; or any existing cluster whose workers see the same
-folder. Results are files, not what travels over the network: whatever is killed, what is written stays done.
+By default the workers are processes on this machine; any dask cluster whose workers see the same folder can be used
+instead. Results are files, and only tasks and names travel over the network: whatever process is killed, the results
+that have been written stay.
 """
 
 # mypy: disable-error-code="no-untyped-call"
@@ -21,21 +22,34 @@ from sphframe.errors import InputError, OutputError, SphframeError
 from sphframe.output.lock import lock_file
 from sphframe.studies.tasks import UNFINISHED, Task, lock_of, work
 
-__all__ = ["Progress", "Watch", "carry_out"]
+__all__ = ["Progress", "ProgressListener", "carry_out"]
 
 _TOPIC = "sphframe-progress"
+_CONNECT_TIMEOUT = "30s"
+_DASK_SETTINGS = {
+    "distributed.scheduler.worker-ttl": None,  # a worker that compiles does not answer for a while
+    "distributed.comm.timeouts.connect": "600s",  # the machine may be busy
+    "distributed.comm.timeouts.tcp": "600s",
+    "distributed.admin.tick.limit": "1h",
+    "distributed.worker.memory.target": False,
+    "distributed.worker.memory.spill": False,
+    "distributed.worker.memory.pause": False,
+    "distributed.worker.memory.terminate": False,
+}
 
 
 @dataclass
 class Progress:
-    """How far the whole is.
+    """Progress of a set of tasks.
 
     Attributes
     ----------
-    total: number of tasks; ``kept``: those that had been done before; ``done``: those done, the kept ones included.
-    running: part done (0 to 1) of each task under way, by label.
-    part: part done of the work that was left, weighted by expected work.
-    last: label of the task that has just been done, if one has.
+    total: number of tasks.
+    kept: number of tasks that were done before.
+    done: number of tasks that are done, including those done before.
+    running: completed part (0 to 1) of each running task, by label.
+    part: completed part of the work that was not done before, weighted by expected work.
+    last: label of the task that has just ended, if one has.
     """
 
     total: int
@@ -46,8 +60,8 @@ class Progress:
     last: str | None = None
 
 
-Watch = Callable[[Progress], None]
-"""is told of every change"""
+ProgressListener = Callable[[Progress], None]
+"""function that is called at each change of the progress"""
 
 
 def carry_out(
@@ -56,95 +70,111 @@ def carry_out(
     *,
     workers: int | None = None,
     scheduler: str | None = None,
-    watch: Watch = lambda progress: None,
+    on_progress: ProgressListener | None = None,
 ) -> dict[str, Path]:
-    """Do the tasks that are not done yet and return the file of each, by label.
+    """Carry out the tasks that are not done yet and return the file of each task, by label.
 
     Parameters
     ----------
-    tasks: with labels that differ.
-    folder: of the results; it is made.
-    workers: processes of the local cluster, each with its share of this machine's cores as threads; by default as many
-        as there are cores, but not more than tasks: independent runs gain more from processes than from threads.
-    scheduler: address of a running dask scheduler, such as ``tcp://127.0.0.1:8786``, in place of a local cluster. Its
+    tasks: with different labels.
+    folder: folder of the results; it is created.
+    workers: number of processes of the local cluster, among which this machine's cores are shared out as threads; by
+        default one process per core, but not more than tasks: independent runs gain more from processes than from
+        threads.
+    scheduler: address of a running dask scheduler, such as ``tcp://127.0.0.1:8786``, instead of a local cluster. Its
         workers must see ``folder`` under the same path; a task uses as many threads as its worker has.
-    watch: see :class:`Progress`.
+    on_progress: called at each change with the :class:`Progress`.
 
     Raises
     ------
-    InputError: dask.distributed is not installed, the scheduler is not there, or ``workers`` is not a positive number.
-    OutputError: another command is at work in the folder, or a worker does not see it.
-    SphframeError: what a task raised; the other tasks' results stay.
+    InputError: dask.distributed is not installed, the scheduler does not answer, or ``workers`` is out of range.
+    OutputError: the folder cannot be created, another command uses it, or a worker does not see it.
+    SphframeError: raised by a task; the results of the other tasks stay.
     """
     if workers is not None and not 1 <= workers <= 1024:
         raise InputError(f"--workers {workers}: give a number of processes from 1 to 1024")
     if workers is not None and scheduler is not None:
-        raise InputError("--workers is of the local cluster and --scheduler names another: give one of them")
+        raise InputError("--workers sets the size of a local cluster and --scheduler names another: give one of them")
     wanted = {task.label: task for task in tasks}
     names = {label: task.name for label, task in wanted.items()}
-    (folder / UNFINISHED).mkdir(parents=True, exist_ok=True)
-    with _alone_in(folder):
-        left = {names[label]: task for label, task in wanted.items() if not (folder / names[label]).exists()}
-        kept = len(set(names.values())) - len(left)
-        progress = Progress(total=kept + len(left), kept=kept, done=kept)
-        watch(progress)
-        if left:
-            with _cluster(len(left), workers, scheduler) as (client, threads):
-                _Foreman(client, threads, folder, left, progress, watch).work()
-        _tidy_up(folder / UNFINISHED, names.values())
+    _make_folder(folder)
+    with _locked(folder):
+        missing = {names[label]: task for label, task in wanted.items() if not (folder / names[label]).exists()}
+        kept = len(set(names.values())) - len(missing)
+        progress = Progress(total=kept + len(missing), kept=kept, done=kept)
+        listener = on_progress or _ignore
+        listener(progress)
+        if missing:
+            with _cluster(len(missing), workers, scheduler) as (client, threads):
+                _TaskRunner(client, threads, folder, missing, progress, listener).run_all()
+        _remove_locks(folder / UNFINISHED, names.values())
     return {label: folder / name for label, name in names.items()}
 
 
-class _Foreman:
-    """Hands tasks to the cluster: first those that bear company, the longest first, then the others one by one."""
+def _ignore(progress: Progress) -> None:
+    """Do nothing: the listener where none was given."""
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        (folder / UNFINISHED).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(
+            f"cannot make the folder {folder}: {error.strerror or error}; give another --output"
+        ) from None
+
+
+class _TaskRunner:
+    """Runs tasks on the cluster: first those that may run concurrently, the longest first; then the others in turn."""
 
     def __init__(
         self,
         client: Any,
         threads: int | None,
         folder: Path,
-        left: Mapping[str, Task],
+        missing: Mapping[str, Task],
         progress: Progress,
-        watch: Watch,
+        listener: ProgressListener,
     ) -> None:
         self._client, self._threads, self._folder = client, threads, folder
-        self._left, self._progress, self._watch = left, progress, watch
-        self._weights = {name: max(task.weight, 1e-9) for name, task in left.items()}
-        self._parts = dict.fromkeys(left, 0.0)
-        client.subscribe_topic(_TOPIC, self._hear)
+        self._missing, self._progress, self._listener = missing, progress, listener
+        self._weights = {name: max(task.weight, 1e-9) for name, task in missing.items()}
+        self._parts = dict.fromkeys(missing, 0.0)
+        client.subscribe_topic(_TOPIC, self._receive_part)
 
-    def work(self) -> None:
-        """Do all."""
-        order = sorted(self._left, key=lambda name: -self._weights[name])
-        self._do([name for name in order if not self._left[name].alone])
+    def run_all(self) -> None:
+        """Run all tasks to their end."""
+        order = sorted(self._missing, key=lambda name: -self._weights[name])
+        self._run([name for name in order if not self._missing[name].alone])
         for name in order:
-            if self._left[name].alone:
-                self._do([name])
+            if self._missing[name].alone:
+                self._run([name])
 
-    def _do(self, names: list[str]) -> None:
+    def _run(self, names: list[str]) -> None:
         folder = str(self._folder.resolve())
-        finished = queue.SimpleQueue[Any]()
-        waiting, under_way = iter(names), set[Any]()
+        ended = queue.SimpleQueue[Any]()
+        waiting, submitted = iter(names), set[Any]()
         try:
             while True:
-                # no more than can be worked on: what dask has given to one worker it leaves there, another may idle
-                for name in itertools.islice(waiting, max(0, self._hands() - len(under_way))):
+                # Never submit more tasks than there are workers: dask does not move a task that it has assigned to a
+                # busy worker, so that another worker could be idle.
+                for name in itertools.islice(waiting, max(0, self._worker_count() - len(submitted))):
                     future = self._client.submit(
-                        _work, self._left[name], folder, name, self._threads, key=name, pure=False
+                        _work, self._missing[name], folder, name, self._threads, key=name, pure=False
                     )
-                    future.add_done_callback(finished.put)
-                    under_way.add(future)
-                if not under_way:
+                    future.add_done_callback(ended.put)
+                    submitted.add(future)
+                if not submitted:
                     return
-                future = finished.get()
-                under_way.remove(future)
+                future = ended.get()
+                submitted.remove(future)
                 self._finish(future)
         except BaseException:
-            self._client.cancel(list(under_way), force=True)
+            self._client.cancel(list(submitted), force=True)
             raise
 
-    def _hands(self) -> int:
-        """Number of workers there are; the first task waits for the first worker."""
+    def _worker_count(self) -> int:
+        """Return the number of workers, at least one: the first task waits until the first worker has started."""
         return max(1, len(self._client.scheduler_info(n_workers=-1)["workers"]))
 
     def _finish(self, future: Any) -> None:
@@ -155,8 +185,8 @@ class _Foreman:
             future.result()
         except KilledWorker:
             raise SphframeError(
-                f"workers died again and again at {self._left[name].label}: is there too little memory? Give fewer"
-                " --workers; what is done is kept"
+                f"several workers died while they ran {self._missing[name].label}; if memory is short, give fewer"
+                " --workers; finished runs are kept"
             ) from None
         if not (self._folder / name).exists():
             raise OutputError(
@@ -164,26 +194,26 @@ class _Foreman:
                 " file system that they share with this command"
             )
         self._progress.done += 1
-        self._note(name, 1.0)
-        self._progress.running.pop(self._left[name].label, None)
-        self._progress.last = self._left[name].label
-        self._watch(self._progress)
+        self._set_part(name, 1.0)
+        self._progress.running.pop(self._missing[name].label, None)
+        self._progress.last = self._missing[name].label
+        self._listener(self._progress)
         self._progress.last = None
 
-    def _hear(self, event: tuple[float, Any]) -> None:
-        message = event[1]
-        if message["name"] in self._left and self._parts[message["name"]] < 1.0:
-            self._progress.running[self._left[message["name"]].label] = message["part"]
-            self._note(message["name"], message["part"])
-            self._watch(self._progress)
+    def _receive_part(self, event: tuple[float, Any]) -> None:
+        name, part = event[1]["name"], event[1]["part"]
+        if name in self._missing and self._parts[name] < 1.0:
+            self._progress.running[self._missing[name].label] = part
+            self._set_part(name, part)
+            self._listener(self._progress)
 
-    def _note(self, name: str, part: float) -> None:
+    def _set_part(self, name: str, part: float) -> None:
         self._parts[name] = part
         self._progress.part = sum(self._weights[n] * p for n, p in self._parts.items()) / sum(self._weights.values())
 
 
-def _tidy_up(unfinished: Path, names: Iterable[str]) -> None:
-    """Remove the locks of what is done; what other commands have left unfinished stays."""
+def _remove_locks(unfinished: Path, names: Iterable[str]) -> None:
+    """Remove the locks of these tasks, and the folder if nothing of another command is in it."""
     for name in names:
         lock_of(unfinished / name).unlink(missing_ok=True)
     with contextlib.suppress(OSError):
@@ -191,16 +221,16 @@ def _tidy_up(unfinished: Path, names: Iterable[str]) -> None:
 
 
 def _work(task: Task, folder: str, name: str, threads: int | None) -> str:
-    """Perform a task on a worker and tell the client how far it is."""
+    """Perform a task on a worker and send its progress to the client."""
     from distributed import get_worker
 
     worker = get_worker()
 
-    def tell(part: float) -> None:
+    def send_part(part: float) -> None:
         worker.log_event(_TOPIC, {"name": name, "part": part})
 
-    tell(0.0)
-    return work(task, folder, name, threads or _threads_of(worker), tell)
+    send_part(0.0)
+    return work(task, folder, name, threads or _threads_of(worker), send_part)
 
 
 def _threads_of(worker: Any) -> int:
@@ -211,46 +241,52 @@ def _threads_of(worker: Any) -> int:
 
 @contextlib.contextmanager
 def _cluster(count: int, workers: int | None, scheduler: str | None) -> Iterator[tuple[Any, int | None]]:
-    """A client of the cluster, and the threads of each task (None: those of its worker)."""
+    """Yield a client of the cluster, and the number of threads per task (None: as many as its worker has)."""
     if find_spec("distributed") is None:
-        raise InputError("this needs dask.distributed: python -m pip install 'sphframe[reproduce]'")
+        raise InputError("this needs dask.distributed: install it with python -m pip install 'sphframe[reproduce]'")
     import dask
+
+    with dask.config.set(_DASK_SETTINGS):
+        if scheduler is not None:
+            with _running_cluster(scheduler) as client:
+                yield client, None
+        else:
+            processes = workers or min(_cores(), count)
+            with _local_cluster(processes) as client:
+                yield client, max(1, _cores() // processes)
+
+
+@contextlib.contextmanager
+def _running_cluster(scheduler: str) -> Iterator[Any]:
+    from distributed import Client
+
+    logging.getLogger("distributed").setLevel(logging.ERROR)
+    try:
+        client = Client(scheduler, timeout=_CONNECT_TIMEOUT, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise InputError(
+            f"--scheduler {scheduler}: no dask scheduler answers there ({error}); start one with"
+            " dask scheduler, and workers with dask worker ADDRESS"
+        ) from None
+    with client:
+        yield client
+
+
+@contextlib.contextmanager
+def _local_cluster(processes: int) -> Iterator[Any]:
     from distributed import Client, LocalCluster
 
-    settings = {
-        "distributed.scheduler.worker-ttl": None,  # a worker that compiles is silent for a while
-        "distributed.admin.tick.limit": "1h",
-        "distributed.worker.memory.target": False,
-        "distributed.worker.memory.spill": False,
-        "distributed.worker.memory.pause": False,
-        "distributed.worker.memory.terminate": False,
-    }
-    with dask.config.set(settings), contextlib.ExitStack() as stack:
-        if scheduler is not None:
-            logging.getLogger("distributed").setLevel(logging.ERROR)
-            try:
-                client = stack.enter_context(Client(scheduler, timeout="10s", set_as_default=False))
-            except (OSError, ValueError, TimeoutError) as error:
-                raise InputError(
-                    f"--scheduler {scheduler}: no dask scheduler answers there ({error}); start one with"
-                    " dask scheduler, and workers with dask worker ADDRESS"
-                ) from None
-            yield client, None
-            return
-        cores = _cores()
-        processes = workers or min(cores, count)
-        threads = max(1, cores // processes)
-        cluster = LocalCluster(
-            n_workers=processes,
-            threads_per_worker=1,
-            processes=True,
-            host="127.0.0.1",
-            dashboard_address="127.0.0.1:0",
-            memory_limit=0,
-            silence_logs=logging.CRITICAL,
-        )
-        stack.enter_context(cluster)
-        yield stack.enter_context(Client(cluster, set_as_default=False)), threads
+    cluster = LocalCluster(
+        n_workers=processes,
+        threads_per_worker=1,
+        processes=True,
+        host="127.0.0.1",
+        dashboard_address="127.0.0.1:0",
+        memory_limit=0,
+        silence_logs=logging.CRITICAL,
+    )
+    with cluster, Client(cluster, set_as_default=False) as client:
+        yield client
 
 
 def _cores() -> int:
@@ -258,8 +294,8 @@ def _cores() -> int:
 
 
 @contextlib.contextmanager
-def _alone_in(folder: Path) -> Iterator[None]:
-    """Keep a second command out of the folder."""
+def _locked(folder: Path) -> Iterator[None]:
+    """Hold the lock of the folder, so that no second command uses it."""
     path = folder / ".lock"
     path.touch()
     descriptor = lock_file(path)

@@ -1,4 +1,4 @@
-"""Studies: measures what boundary methods cost, interpolation alone and whole step, on the same state."""
+"""Studies: measures the cost of boundary methods on the same state, of the interpolation alone and of a whole step."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from sphframe.benchmark.flow import warm_up
 from sphframe.benchmark.machine import machine
 from sphframe.benchmark.methods import Side, side_by_side, wet_points
 from sphframe.simulation import Simulation
-from sphframe.studies.tasks import Task, Tell, made_with, wall_boundary
+from sphframe.studies.tasks import PartListener, Task, made_with, wall_boundary
 
 __all__ = ["CostTask"]
 
@@ -21,13 +21,15 @@ class CostTask(Task):
     """Time several methods on one state of a case.
 
     The case runs to ``after`` (s) with its own method; every method then starts from that state. Compilation and the
-    first steps are not timed. The methods take turns in each of ``repeats``, so that whatever else the machine does
-    falls on all alike; what is said of a method are medians. All with one thread; the time is that of the processor,
-    which on a quiet machine is the time on the wall. How much longer the wall's was is in the attribute ``busy``.
+    first steps are not timed. Each of ``repeats`` times all methods in turn, so that other load on the machine affects
+    all of them; medians are reported. One thread is used. The time is processor time, which on a quiet machine equals
+    wall-clock time; the attribute ``busy`` of the result is the ratio of wall-clock time to processor time.
 
     Attributes
     ----------
-    methods: the components that choose the methods, and their lifts, by the name under which they are reported.
+    methods: the methods' components and lifts, by the name under which they are reported.
+    after: simulated time of the state at which the methods are timed, s.
+    repeats: number of measurements per method.
     """
 
     methods: Mapping[str, tuple[Mapping[str, Any], str]]
@@ -44,7 +46,7 @@ class CostTask(Task):
         return super().weight * steps
 
     def recipe(self) -> dict[str, Any]:
-        """Return all that the measurement depends on, but for the machine."""
+        """Return all that the measurement depends on, except the machine."""
         made = {label: made_with(self._case_of(label)) for label in self.methods}
         own = {
             "clock": "processor",
@@ -58,15 +60,15 @@ class CostTask(Task):
     def _case_of(self, label: str) -> Any:
         return type(self.case())(**{**self.parameters, **wall_boundary(*self.methods[label])})
 
-    def perform(self, path: Path, threads: int, tell: Tell) -> None:
-        """Measure, and write the times."""
+    def perform(self, path: Path, threads: int, on_part: PartListener) -> None:
+        """Measure the times and write them."""
         first = Simulation(self.case(), threads=1)
         warm_up(first)
         while first.time < self.after:
             first.advance()
-            tell(0.5 * first.time / self.after)
+            on_part(0.5 * first.time / self.after)
         cases = {label: self._case_of(label) for label in self.methods}
-        side = side_by_side(cases, first.state(), self.repeats, lambda part: tell(0.5 + 0.5 * part))
+        side = side_by_side(cases, first.state(), self.repeats, lambda part: on_part(0.5 + 0.5 * part))
         _dataset(side).assign_attrs(busy=side.busy).to_netcdf(path, engine="netcdf4")
 
 

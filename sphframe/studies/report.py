@@ -1,16 +1,18 @@
-"""Studies: writes chapters as one self-contained page, with every figure and table as a file of its own, and as
-Markdown beside these.
+"""Studies: writes a report as one self-contained HTML page and as Markdown, with figures and tables as files beside it.
 
-All text passes through jinja2's escaping: names that come from cases, plugins or files are shown, never interpreted.
+In the HTML page all text is escaped: a name from a case, a plugin or a file is shown as it is and never interpreted.
+In the Markdown only the characters that would begin an HTML element or end a cell of a table are escaped.
 """
 
 import base64
 import csv
 import io
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 from sphframe.errors import InputError, OutputError
 from sphframe.output.files import replaced_as_a_whole
@@ -24,7 +26,7 @@ _MIME = {"svg": "image/svg+xml", "png": "image/png"}
 def write_report(
     folder: Path, title: str, chapters: Sequence[Chapter], *, preface: Sequence[str] = (), facts: Mapping[str, str]
 ) -> Path:
-    """Write ``report.html``, ``report.md``, ``figures/`` and ``tables/`` into ``folder``; return the page.
+    """Write ``report.html``, ``report.md``, ``figures/`` and ``tables/`` into ``folder``; return the path of the page.
 
     Parameters
     ----------
@@ -36,21 +38,26 @@ def write_report(
     InputError: jinja2 is not installed.
     OutputError: a file cannot be written.
     """
-    if find_spec("jinja2") is None:
-        raise InputError("the report needs jinja2: python -m pip install 'sphframe[reproduce]'")
-    from jinja2 import Environment, PackageLoader, StrictUndefined
+    claims = _table_of_claims(chapters)
+    content = {
+        "title": title,
+        "preface": preface,
+        "chapters": chapters,
+        "claims": claims.rows,
+        "facts": facts,
+        "counts": _count_verdicts(chapters),
+    }
+    page, markdown = _render("report.html.j2", content), _render("report.md.j2", content)
+    _write_figures_and_tables(folder, chapters, claims)
+    _write(folder / "report.md", markdown.encode())
+    path = folder / "report.html"
+    _write(path, page.encode())
+    return path
 
-    environment = Environment(
-        loader=PackageLoader("sphframe.studies", "templates"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
-    environment.filters.update(shown=shown, data_uri=_data_uri, cell=_markdown_cell)
-    claims = [claim for chapter in chapters for claim in chapter.claims]
-    claim_rows: list[dict[str, Cell]] = [
+
+def _table_of_claims(chapters: Sequence[Chapter]) -> Table:
+    """Return the claims of all chapters as one table."""
+    rows: list[dict[str, Cell]] = [
         {
             "where": claim.where,
             "claim": claim.statement,
@@ -59,35 +66,47 @@ def write_report(
             "measured": claim.measured,
             "reason": claim.reason,
         }
-        for claim in claims
+        for chapter in chapters
+        for claim in chapter.claims
     ]
-    page, markdown = (
-        environment.get_template(f"{name}.j2").render(
-            title=title,
-            preface=preface,
-            chapters=chapters,
-            claims=claim_rows,
-            facts=facts,
-            counts={verdict.value: sum(claim.verdict is verdict for claim in claims) for verdict in Verdict},
-        )
-        for name in ("report.html", "report.md")
+    return Table("claims", "Claims", rows)
+
+
+def _count_verdicts(chapters: Sequence[Chapter]) -> dict[str, int]:
+    """Return the number of claims with each verdict, by the verdict's name."""
+    found = Counter(claim.verdict for chapter in chapters for claim in chapter.claims)
+    return {verdict.value: found[verdict] for verdict in Verdict}
+
+
+def _render(template: str, content: Mapping[str, Any]) -> str:
+    """Fill in a template. Text is escaped where the template makes HTML, and only there."""
+    if find_spec("jinja2") is None:
+        raise InputError("the report needs jinja2: install it with python -m pip install 'sphframe[reproduce]'")
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    environment = Environment(
+        loader=PackageLoader("sphframe.studies", "templates"),
+        autoescape=template.endswith(".html.j2"),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
     )
+    environment.filters.update(shown=shown, data_uri=_data_uri, cell=_markdown_cell, text=_markdown_text)
+    return environment.get_template(template).render(content)
+
+
+def _write_figures_and_tables(folder: Path, chapters: Sequence[Chapter], claims: Table) -> None:
     for chapter in chapters:
         for picture in chapter.pictures:
             _write(folder / "figures" / f"{picture.name}.{picture.suffix}", picture.content)
-        for table in chapter.tables:
-            if table.rows:
-                _write(folder / "tables" / f"{table.name}.csv", _csv(table).encode())
-    if claims:
-        _write(folder / "tables" / "claims.csv", _csv(Table("claims", "", claim_rows)).encode())
-    _write(folder / "report.md", markdown.encode())
-    path = folder / "report.html"
-    _write(path, page.encode())
-    return path
+    for table in [*(table for chapter in chapters for table in chapter.tables), claims]:
+        if table.rows:
+            _write(folder / "tables" / f"{table.name}.csv", _csv(table).encode())
 
 
 def shown(cell: Cell) -> str:
-    """Return a table's cell as it is shown.
+    """Return the text that a report shows for a cell of a table.
 
     >>> shown(0.123456), shown(12345.6), shown(float("nan")), shown(7), shown("yes"), shown(None)
     ('0.1235', '1.235e+04', '-', '7', 'yes', '-')
@@ -97,9 +116,18 @@ def shown(cell: Cell) -> str:
     return f"{cell:.4g}" if isinstance(cell, float) else str(cell)
 
 
+def _markdown_text(text: str) -> str:
+    """Return ``text`` for Markdown, with ``<`` escaped so that no HTML element begins in it.
+
+    >>> _markdown_text("the paper's <script>")
+    "the paper's \\\\<script>"
+    """
+    return text.replace("<", "\\<")
+
+
 def _markdown_cell(text: str) -> str:
-    """Text that stays in its cell of a table."""
-    return " ".join(text.replace("|", "\\|").split())
+    """Return ``text`` on one line and without the character that ends a cell of a Markdown table."""
+    return " ".join(_markdown_text(text).replace("|", "\\|").split())
 
 
 def _data_uri(picture: Picture) -> str:
@@ -117,7 +145,7 @@ def _csv(table: Table) -> str:
 
 
 def _write(path: Path, content: bytes) -> None:
-    """Replace ``path`` by ``content``: what was there stays until all is written."""
+    """Replace the file ``path``; the old content stays until the new one is written completely."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with replaced_as_a_whole(path) as draft:

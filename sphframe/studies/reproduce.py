@@ -6,17 +6,16 @@ from pathlib import Path
 
 import xarray as xr
 
-import sphframe
-from sphframe.errors import InputError, OutputError
+from sphframe.errors import InputError
 from sphframe.output import open_dataset
-from sphframe.output.provenance import distributions, software
 from sphframe.registry.nearest import did_you_mean
 from sphframe.studies.chapter import Chapter, Table
-from sphframe.studies.engine import Watch, carry_out
+from sphframe.studies.engine import ProgressListener, carry_out
 from sphframe.studies.report import write_report
 from sphframe.studies.section import Section
 from sphframe.studies.series import Reference
 from sphframe.studies.study import Study, installed_study
+from sphframe.studies.tasks import software_of
 
 __all__ = ["reproduce"]
 
@@ -35,7 +34,7 @@ def reproduce(
     reference: Path | None = None,
     workers: int | None = None,
     scheduler: str | None = None,
-    watch: Watch = lambda progress: None,
+    on_progress: ProgressListener | None = None,
 ) -> Path:
     """Carry out the runs of a study that are not done yet, and write the report; return its path.
 
@@ -50,7 +49,7 @@ def reproduce(
     quick: run at coarse resolutions and for short times, which takes minutes.
     reference: folder of reference series, see :func:`sphframe.analysis.read_reference_series`. Series that are not
         there are left out, and the report names them.
-    workers, scheduler, watch: see :func:`sphframe.studies.engine.carry_out`.
+    workers, scheduler, on_progress: see :func:`sphframe.studies.engine.carry_out`.
 
     Raises
     ------
@@ -62,18 +61,9 @@ def reproduce(
     chosen_study = installed_study(study) if isinstance(study, str) else study
     sections = _chosen(chosen_study.sections(), only)
     series = Reference(reference)
-    try:
-        output.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(
-            f"cannot make the folder {output}: {error.strerror or error}; give another --output"
-        ) from None
     tasks = {section.name: section.tasks(quick) for section in sections}
     every = [task for own in tasks.values() for task in own]
-    files = carry_out(every, output / "runs", workers=workers, scheduler=scheduler, watch=watch)
-    versions = dict[str, str]()
-    for task in every:
-        versions |= distributions(task.case())
+    files = carry_out(every, output / "runs", workers=workers, scheduler=scheduler, on_progress=on_progress)
     return write_report(
         output,
         chosen_study.title,
@@ -82,7 +72,7 @@ def reproduce(
             for section in sections
         ],
         preface=[chosen_study.source, *([_QUICK] if quick else [])],
-        facts={"sphframe": sphframe.__version__, **dict(sorted(versions.items())), **software()},
+        facts=software_of(every),
     )
 
 

@@ -3,16 +3,12 @@
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from sphframe.analysis import read_reference_series, summary
 from sphframe.errors import InputError
 
 __all__ = ["Reference", "ended", "fallback_share"]
-
-Array = NDArray[np.float64]
 
 
 class Reference:

@@ -1,6 +1,6 @@
-"""Studies: one task is one run, whose result is one file that is there completely or not at all.
+"""Studies: a task is one run, and its result is one file, which is complete or does not exist.
 
-The file's name holds a hash of all that the result depends on, so that work that is done is recognised by its name.
+The file's name contains a hash of all that the result depends on, so that a finished task is recognised by its name.
 """
 
 import hashlib
@@ -10,11 +10,12 @@ import threading
 import time
 import warnings
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar
 
+import sphframe
 from sphframe.cases import Case, CaseWarning
 from sphframe.compiled import fingerprint
 from sphframe.errors import InputError, OutputError, SimulationError
@@ -25,31 +26,42 @@ from sphframe.kernels import compiled_kernel
 from sphframe.output import open_dataset
 from sphframe.output.checkpoint import checkpoint_path
 from sphframe.output.lock import lock_file
-from sphframe.output.provenance import distributions, registered_name
+from sphframe.output.provenance import distributions, registered_name, software
 from sphframe.registry import load
 from sphframe.simulation.run import resume, run
 
-__all__ = ["UNFINISHED", "RunTask", "Task", "Tell", "lock_of", "made_with", "slug", "wall_boundary", "work"]
+__all__ = [
+    "UNFINISHED",
+    "PartListener",
+    "RunTask",
+    "Task",
+    "lock_of",
+    "made_with",
+    "slug",
+    "software_of",
+    "wall_boundary",
+    "work",
+]
 
 UNFINISHED = "unfinished"
-"""folder, beside the results, of what is being computed or was interrupted"""
+"""name of the folder, beside the results, that holds the files of tasks that are running or were interrupted"""
 CHECKPOINT_EVERY = 30.0
-"""s of wall-clock time that a killed run loses at most"""
+"""s of wall-clock time between checkpoints, which a killed run loses at most"""
 
-Tell = Callable[[float], None]
-"""is told how much of a task is done, from 0 to 1"""
+PartListener = Callable[[float], None]
+"""function that is called with the completed part of a task, from 0 to 1"""
 
 _one_at_a_time = threading.Lock()
 
 
 @dataclass(frozen=True)
 class Task(ABC):
-    """What a worker does: plain data, so that it travels to any worker.
+    """Work for one worker. A task is plain data, so that it can be sent to any worker.
 
     Attributes
     ----------
-    label: names the task to people and, in the name of its file, to the file system.
-    case_name, parameters: the case, all its parameters in their JSON form.
+    label: name of the task in messages and reports, and, as a slug, in the name of its file.
+    case_name, parameters: the case, and all its parameters in their JSON form.
     """
 
     label: str
@@ -57,11 +69,11 @@ class Task(ABC):
     parameters: Mapping[str, Any] = field(repr=False)
 
     alone: ClassVar[bool] = False
-    """whether nothing else may run at the same time, as when times are measured"""
+    """whether no other task may run at the same time, as when times are measured"""
 
     @abstractmethod
-    def perform(self, path: Path, threads: int, tell: Tell) -> None:
-        """Write the result to ``path``, where an earlier attempt may have left something to continue."""
+    def perform(self, path: Path, threads: int, on_part: PartListener) -> None:
+        """Write the result to ``path``; an interrupted attempt may have left a file there, which can be continued."""
 
     def case(self) -> Case:
         """Return the case, checked."""
@@ -98,7 +110,7 @@ class Task(ABC):
 class RunTask(Task):
     """Run a case to its end.
 
-    A run that goes wrong is a result as well: its file says so, as far as it came. It is not tried again.
+    A run that fails is a result as well: its file ends where the run failed and holds the message. It is not repeated.
     """
 
     @classmethod
@@ -106,14 +118,14 @@ class RunTask(Task):
         """Return the task that runs ``case``."""
         return cls(label, registered_name(type(case)), case.model_dump(mode="json"))
 
-    def perform(self, path: Path, threads: int, tell: Tell) -> None:
-        """Run, or continue from the last checkpoint."""
+    def perform(self, path: Path, threads: int, on_part: PartListener) -> None:
+        """Run the case, or continue from the last checkpoint."""
         if path.exists() and _is_complete(path):
             return
         options: dict[str, Any] = {
             "threads": threads,
             "checkpoint_every": CHECKPOINT_EVERY,
-            "hooks": [_Teller(tell)],
+            "hooks": [_PartHook(on_part)],
         }
         case = self.case()
         try:
@@ -121,7 +133,7 @@ class RunTask(Task):
                 try:
                     resume(path, case=case, **options).dataset.close()
                     return
-                except (InputError, OutputError):  # what is left of the attempt before is of no use
+                except (InputError, OutputError):  # the files of the interrupted attempt are damaged
                     pass
             run(case, output=path, overwrite=True, **options).dataset.close()
         except SimulationError:
@@ -129,29 +141,29 @@ class RunTask(Task):
                 raise
 
 
-class _Teller:
-    """A hook plugin that tells, once a second, how much of a run is done."""
+class _PartHook:
+    """A hook plugin that calls a listener once per second with the completed part of a run."""
 
-    def __init__(self, tell: Tell) -> None:
-        self._tell, self._told = tell, time.monotonic()
+    def __init__(self, on_part: PartListener) -> None:
+        self._on_part, self._called = on_part, time.monotonic()
 
     @hookimpl
     def sphframe_step_completed(self, simulation: RunView) -> None:
-        """Tell, if it is time."""
-        if time.monotonic() - self._told > 1.0:
-            self._told = time.monotonic()
-            self._tell(simulation.time / simulation.case.until)
+        """Call the listener if a second has passed."""
+        if time.monotonic() - self._called > 1.0:
+            self._called = time.monotonic()
+            self._on_part(simulation.time / simulation.case.until)
 
 
-def work(task: Task, folder: str, name: str, threads: int, tell: Tell) -> str:
-    """Perform ``task`` unless it is done; return the name of its file in ``folder``. Workers call this.
+def work(task: Task, folder: str, name: str, threads: int, on_part: PartListener) -> str:
+    """Perform ``task`` unless it is done; return the name of its file in ``folder``. Workers call this function.
 
-    Tasks of one process wait for each other: each has all ``threads``. A task that another process is still at, such
-    as one left behind by a command that was killed, is waited for.
+    One process performs one task at a time, with all ``threads``. If another process is performing the same task, such
+    as a worker of a command that was killed, this one waits for it.
 
     Raises
     ------
-    InputError: ``name``, by which the result is expected, is not that by which this worker would write it.
+    InputError: ``name``, the expected name of the result, is not the name that this worker computes.
     """
     if task.name != name:
         raise InputError(
@@ -163,21 +175,36 @@ def work(task: Task, folder: str, name: str, threads: int, tell: Tell) -> str:
     with _one_at_a_time, _Locked(lock_of(unfinished)), warnings.catch_warnings():
         warnings.simplefilter("ignore", CaseWarning)
         if not result.exists():
-            task.perform(unfinished, threads, tell)
+            task.perform(unfinished, threads, on_part)
             os.replace(unfinished, result)
             checkpoint_path(unfinished).unlink(missing_ok=True)
     return name
 
 
 def made_with(case: Case) -> dict[str, str]:
-    """Return the versions of what ``case`` is run with, and the fingerprint of its method, whose author is at work."""
+    """Return the versions of the distributions that ``case`` is run with, and the fingerprint of its method's code.
+
+    The fingerprint is there because the author of a method changes its code without changing its version.
+    """
     method = case.interpolator.create("interpolators")
     kernel = compiled_kernel(case.kernel.create("kernels"), case.dimension)
     return {**distributions(case), "method": fingerprint(method.point_weights(kernel, case.dimension))}
 
 
+def software_of(tasks: Iterable[Task]) -> dict[str, str]:
+    """Return the versions of sphframe, of the plugins that the tasks use, and of the libraries, for a report."""
+    versions = dict[str, str]()
+    for task in tasks:
+        versions |= distributions(task.case())
+    return {"sphframe": sphframe.__version__, **dict(sorted(versions.items())), **software()}
+
+
 def wall_boundary(interpolator: Mapping[str, Any], lift: str) -> dict[str, Any]:
-    """Return the parameters of a case that make its boundary the paper's (``mirror``) or ours (``balanced``)."""
+    """Return the parameters of a case that choose its wall boundary.
+
+    With the lift ``mirror`` the ghosts have the velocity that the method interpolates, as in Huang et al. (2019); with
+    ``balanced`` they have the corrected velocity.
+    """
     return {
         "interpolator": dict(interpolator),
         "hydrostatic_lift": lift,
@@ -186,12 +213,12 @@ def wall_boundary(interpolator: Mapping[str, Any], lift: str) -> dict[str, Any]:
 
 
 def lock_of(unfinished: Path) -> Path:
-    """Return the lock of a file that is being made."""
+    """Return the path of the lock of an unfinished file."""
     return unfinished.with_name(f"{unfinished.name}.lock")
 
 
 def slug(text: str) -> str:
-    """Return ``text`` as a part of a file's name.
+    """Return ``text`` in a form that can be part of a file's name.
 
     >>> slug("dam break: improved-shepard (mirror)")
     'dam-break-improved-shepard-mirror'
@@ -201,7 +228,7 @@ def slug(text: str) -> str:
 
 
 def _is_complete(path: Path) -> bool:
-    """Whether the run in ``path`` came to its end, and only its file was not yet put in its place."""
+    """Return whether the run in ``path`` reached its end, so that only the file has to be moved."""
     try:
         with open_dataset(path) as dataset:
             return bool(dataset.attrs["completed"] == "yes")
@@ -210,7 +237,7 @@ def _is_complete(path: Path) -> bool:
 
 
 class _Locked:
-    """Hold the lock of the file ``path``, waiting for it."""
+    """Hold the lock of the file ``path``; wait until it is free."""
 
     def __init__(self, path: Path) -> None:
         self._path = path

@@ -1,4 +1,4 @@
-"""Opens a report in a headless browser, or, where there is none, reads it and decodes every picture."""
+"""Helpers that open a report in a headless browser, and that read its page and decode its pictures without one."""
 
 import base64
 import io
@@ -12,7 +12,7 @@ BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stab
 
 
 def browser() -> str | None:
-    """Return the path of a Chromium that playwright can steer, or None."""
+    """Return the path of a Chromium that playwright can control, or None."""
     try:
         import playwright  # noqa: F401
     except ImportError:
@@ -21,14 +21,15 @@ def browser() -> str | None:
 
 
 def seen_in_browser(report: Path, program: str) -> dict[str, object]:
-    """Return what a browser shows: images with their sizes, what it asked the network for, scripts, errors."""
+    """Return what a browser finds in a page: images and their sizes, requests to the network, scripts, errors, text."""
     from playwright.sync_api import sync_playwright
 
     asked: list[str] = []
     errors: list[str] = []
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
+        chromium = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"], timeout=0)
         page = chromium.new_page()
+        page.set_default_timeout(0)
         page.on("request", lambda request: asked.append(request.url))
         page.on("pageerror", lambda error: errors.append(str(error)))
         page.on("dialog", lambda dialog: (errors.append(dialog.message), dialog.dismiss()))
@@ -44,7 +45,7 @@ def seen_in_browser(report: Path, program: str) -> dict[str, object]:
 
 
 class Page(HTMLParser):
-    """The images' sources, the elements and the text of a page."""
+    """The sources of the images, the elements and the text of an HTML page."""
 
     def __init__(self, html: str) -> None:
         super().__init__()
@@ -54,18 +55,18 @@ class Page(HTMLParser):
         self.feed(html)
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Note an element."""
+        """Record an element."""
         self.elements.add(tag)
         if tag == "img":
             self.images.append(dict(attrs).get("src") or "")
 
     def handle_data(self, data: str) -> None:
-        """Note text."""
+        """Record text."""
         self.text += data
 
 
 def decoded_width(source: str) -> float:
-    """Return the width of the picture in a data URI, after decoding all of it."""
+    """Return the width of the picture in a data URI, after decoding it completely."""
     match = re.fullmatch(r"data:image/(png|svg\+xml);base64,([A-Za-z0-9+/=]+)", source)
     assert match, source[:80]
     content = base64.b64decode(match[2], validate=True)

@@ -64,7 +64,7 @@ def test_with_a_reference_the_error_is_to_it(cluster: str, tmp_path: Path) -> No
     [
         (["compare", "hydrostatic-tank", "--interpolators", "improved-sheperd"], "improved-shepard"),
         (["compare", "hydrostatic-tank", "--interpolators", "shepard,shepard"], "give each method once"),
-        (["compare", "hydrostatic-tank", "--set", "particle_spacing=0.1,fine"], "give numbers with commas"),
+        (["compare", "hydrostatic-tank", "--set", "particle_spacing=0.1,fine"], "give numbers separated by commas"),
         (["compare", "hydrostatic-tank", "--set", "particle_spacing=-1,0.1"], "particle_spacing"),
         (["compare", "no-such-case"], "no-such-case"),
         (["compare", "hydrostatic-tank", "--reference", "nowhere/x.csv"], "does not exist"),

@@ -13,7 +13,7 @@ from sphframe.errors import InputError, OutputError
 from sphframe.output.lock import lock_file
 from sphframe.studies import engine
 from sphframe.studies.engine import Progress, carry_out
-from sphframe.studies.tasks import RunTask, Task, Tell
+from sphframe.studies.tasks import PartListener, RunTask, Task
 
 pytestmark = pytest.mark.filterwarnings("ignore:Sending large graph")
 
@@ -22,7 +22,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:Sending large graph")
 class Fails(Task):
     """A task whose worker has a mishap."""
 
-    def perform(self, path: Path, threads: int, tell: Tell) -> None:
+    def perform(self, path: Path, threads: int, on_part: PartListener) -> None:
         """Fail."""
         raise OutputError("the disk is full")
 
@@ -40,7 +40,7 @@ def test_what_is_done_is_kept_and_the_rest_is_told(make: Callable[..., RunTask],
     seen: list[Progress] = []
     files = carry_out([one], tmp_path, scheduler=cluster)
     before = files["one"].stat().st_ino
-    files = carry_out([one, two], tmp_path, scheduler=cluster, watch=lambda p: seen.append(replace(p)))
+    files = carry_out([one, two], tmp_path, scheduler=cluster, on_progress=lambda p: seen.append(replace(p)))
     assert files["one"].stat().st_ino == before
     assert files["two"].exists()
     assert (seen[0].total, seen[0].kept) == (2, 1)

@@ -64,7 +64,9 @@ def test_the_markdown_names_every_figure_and_table(report: Path, tiny: ModuleTyp
     linked = set(re.findall(r"\]\(([^)]+)\)", text))
     assert linked == {f"figures/{n}" for n in ("pressures.svg", "pressures_raster.png")} | {"tables/pressures.csv"}
     assert all((report.parent / path).exists() for path in linked)
-    assert "<script" not in text
+    assert not re.search(r"(?<!\\)<", text), "an HTML element could begin here"
+    assert not re.search(r"&(#\d+|[a-z]+);", text), "Markdown shows an HTML escape as it stands"
+    assert "alert('x')" in text
     rows = [line for line in text.splitlines() if line.startswith("| tank")]
     assert [row.count("|") for row in rows] == [4] * 4
 

@@ -1,0 +1,83 @@
+"""Studies: the chapter of a comparison of methods: its table and its figures."""
+
+import math
+from typing import Any
+
+import xarray as xr
+
+from sphframe.studies.chapter import Cell, Chapter, Picture, Table
+from sphframe.studies.drawing import colour, new_figure, picture, thinned, tidy
+
+__all__ = ["comparison_chapter"]
+
+
+def comparison_chapter(dataset: xr.Dataset) -> Chapter:
+    """Return the tables and figures of a dataset that :func:`sphframe.studies.compare` has made."""
+    return Chapter(
+        "comparison",
+        "Comparison",
+        [
+            f"The error is the {dataset['error'].attrs['long_name']}"
+            + (" over rho g H." if dataset["error"].attrs["units"] == "1" else ", in Pa.")
+            + " The wall-clock time is that of a run that shared the machine with others, so that it shows costs only"
+            " roughly; sphframe bench measures them.",
+        ],
+        [Table("comparison", "Error and cost of each method at each resolution", _rows(dataset))],
+        [_curves(dataset), *([_histories(dataset)] if dataset.sizes["probe"] else [])],
+    )
+
+
+def _rows(dataset: xr.Dataset) -> list[dict[str, Cell]]:
+    rows: list[dict[str, Cell]] = []
+    for method in dataset["interpolator"].values:
+        for spacing in dataset["particle_spacing"].values:
+            one = dataset.sel(interpolator=method, particle_spacing=spacing)
+            rows.append(
+                {
+                    "method": str(method),
+                    "particle spacing (m)": float(spacing),
+                    "particles": int(one["particles"]),
+                    "error": float(one["error"]),
+                    "observed order": float(one["order"]),
+                    "wall clock (s)": float(one["wall_clock"]),
+                    "us per particle and step": float(one["cost"]),
+                    "energy above its start (%)": 100.0 * float(one["energy_excess"]),
+                    "fallback (% of wet ghosts)": float(one["fallback"]),
+                    "to the end": "yes" if int(one["completed"]) else "no",
+                }
+            )
+    return rows
+
+
+def _curves(dataset: xr.Dataset) -> Picture:
+    figure = new_figure(10.0, 4.0)
+    left, right = figure.subplots(1, 2)
+    for method in dataset["interpolator"].values:
+        one = dataset.sel(interpolator=method)
+        style: dict[str, Any] = {"color": colour(str(method)), "marker": "o", "markersize": 4, "linewidth": 1.0}
+        order = float(one["order"])
+        label = str(method) if math.isnan(order) else f"{method}, order {order:.2f}"
+        error = one["error"].where(one["error"] > 0.0)
+        if error.notnull().any():
+            left.plot(one["particle_spacing"], error, label=label, **style)
+        right.plot(one["particle_spacing"], one["wall_clock"], label=str(method), **style)
+    tidy(left, xscale="log", yscale="log" if left.lines else "linear", xlabel="particle spacing (m)", ylabel="error")
+    tidy(right, xscale="log", yscale="log", xlabel="particle spacing (m)", ylabel="wall clock (s)")
+    if left.lines:
+        left.legend(fontsize=8, frameon=False)
+    right.legend(fontsize=8, frameon=False)
+    return picture("comparison", "Error and cost against resolution.", figure)
+
+
+def _histories(dataset: xr.Dataset) -> Picture:
+    names = [str(p) for p in dataset["probe"].values][:4]
+    figure = new_figure(10.0, 2.4 * len(names) + 0.8)
+    panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
+    for axes, name in zip(panels, names, strict=True):
+        for method in dataset["interpolator"].values:
+            one = dataset["probe_pressure"].isel(particle_spacing=-1).sel(interpolator=method, probe=name)
+            axes.plot(*thinned(one["probe_time"], one), color=colour(str(method)), linewidth=0.8, label=str(method))
+        tidy(axes, title=name, ylabel="p (Pa)")
+    panels[-1].set_xlabel("t (s)")
+    panels[0].legend(fontsize=8, frameon=False, ncols=3)
+    return picture("comparison_probes", "Pressure at the probes, finest resolution.", figure)

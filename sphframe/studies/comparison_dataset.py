@@ -1,0 +1,150 @@
+"""Studies: the results of several methods at several resolutions, gathered into one dataset."""
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from sphframe.analysis import convergence_order, pressure_scale, rest_pressure, running_mean, summary
+from sphframe.errors import InputError
+from sphframe.studies.series import fallback_share
+
+__all__ = ["comparison_dataset"]
+
+Array = NDArray[np.float64]
+
+_SAMPLES = 2001
+"""number of times at which the dataset holds the pressures at the probes"""
+_OVER = ("interpolator", "particle_spacing")
+_NUMBERS = {
+    "cost": {"units": "us", "long_name": "wall-clock time per particle and step"},
+    "wall_clock": {"units": "s", "long_name": "wall-clock time of the run"},
+    "steps": {"units": "1", "long_name": "time steps"},
+    "particles": {"units": "1", "long_name": "fluid particles"},
+    "energy_excess": {"units": "1", "long_name": "largest total energy over the first, -1"},
+    "fallback": {"units": "%", "long_name": "wet ghosts that used the fallback"},
+    "completed": {"units": "1", "long_name": "1 for a run that reached its end"},
+}
+"""what the dataset holds of each run, beside its error and its pressures"""
+
+
+def comparison_dataset(
+    runs: Mapping[tuple[str, float], xr.Dataset], reference: xr.DataArray | None, probe: str | None
+) -> xr.Dataset:
+    """Return errors, costs, orders and pressures at the probes over (interpolator, particle_spacing).
+
+    Parameters
+    ----------
+    runs: by method and particle spacing (m), each method with the same spacings, the finest last.
+    reference: series of p/(rho g H) over t sqrt(g/H), or None.
+    probe: the probe to compare with it; by default the first.
+
+    Raises
+    ------
+    InputError: the case has no probe of this name.
+    """
+    methods, spacings = list(dict.fromkeys(m for m, _ in runs)), list(dict.fromkeys(s for _, s in runs))
+    first = next(iter(runs.values()))
+    probes = [str(name) for name in first["probe"].values] if "probe_pressure" in first else []
+    if probe is not None and probe not in probes:
+        raise InputError(f"the case has no probe {probe!r}; it has {', '.join(probes) or 'none'}")
+    compared = probe or next(iter(probes), None)
+
+    def table(value: Callable[[str, float], Any]) -> NDArray[Any]:
+        return np.array([[value(method, spacing) for spacing in spacings] for method in methods])
+
+    error = table(lambda m, s: _error(runs[m, s], runs[m, spacings[-1]], reference, compared))
+    numbers = {key: _numbers(run) for key, run in runs.items()}
+    times = _common_times(runs.values())
+    pressure = table(lambda m, s: _pressures(runs[m, s], times, len(probes)))
+    unit = "1" if pressure_scale(first) else "Pa"
+    order = [_order(spacings, row) for row in error]
+    return xr.Dataset(
+        {
+            "error": (_OVER, error, {"units": unit, "long_name": _meaning_of_error(first, reference)}),
+            "order": ("interpolator", order, {"units": "1", "long_name": "observed order of convergence"}),
+            **{
+                name: (_OVER, table(lambda m, s, name=name: numbers[m, s][name]), attributes)  # type: ignore[misc]
+                for name, attributes in _NUMBERS.items()
+            },
+            "probe_pressure": (
+                (*_OVER, "probe", "probe_time"), pressure, {"units": "Pa", "long_name": "pressure at the probe"}
+            ),
+        },
+        coords={
+            "interpolator": methods,
+            "particle_spacing": ("particle_spacing", spacings, {"units": "m", "long_name": "particle spacing"}),
+            "probe": probes,
+            "probe_time": ("probe_time", times, {"units": "s", "long_name": "time"}),
+        },
+        attrs={
+            "title": str(first.attrs["title"]),
+            "case_name": str(first.attrs["case_name"]),
+            "pressure_scale": pressure_scale(first),
+        },
+    )  # fmt: skip
+
+
+def _numbers(run: xr.Dataset) -> dict[str, Any]:
+    """Return what the dataset holds of one run, NaN for what the run does not know."""
+    known = summary(run)
+    numbers: dict[str, Any] = {name: known.get(name, math.nan) for name in _NUMBERS}
+    numbers["cost"] = 1e6 * numbers["wall_clock"] / (numbers["steps"] * numbers["particles"])
+    numbers["fallback"] = fallback_share(run)
+    numbers["completed"] = np.int8(run.attrs["completed"] == "yes")
+    return numbers
+
+
+def _common_times(runs: Iterable[xr.Dataset]) -> Array:
+    """Return evenly spaced times from zero to the last sample of any run, s."""
+    return np.linspace(0.0, max(float(run["probe_time"][-1]) for run in runs if run.sizes["probe_time"]), _SAMPLES)
+
+
+def _pressures(run: xr.Dataset, times: Array, probes: int) -> Array:
+    """Return the pressures at the probes, (probes, times), NaN after the end of the run."""
+    if not probes:
+        return np.zeros((0, len(times)))
+    t, pressures = run["probe_time"].values, run["probe_pressure"].values
+    return np.array([np.interp(times, t, pressures[:, k], right=math.nan) for k in range(probes)])
+
+
+def _meaning_of_error(run: xr.Dataset, reference: xr.DataArray | None) -> str:
+    """Return in words what :func:`_error` computes."""
+    if reference is not None:
+        kind = "reference series"
+    elif run.attrs["case_name"] == "hydrostatic-tank":
+        kind = "state of rest"
+    else:
+        kind = "finest spacing of the same method"
+    return f"RMS difference of probe pressures from the {kind}"
+
+
+def _error(run: xr.Dataset, finest: xr.Dataset, reference: xr.DataArray | None, probe: str | None) -> float:
+    """Return the RMS difference of pressures; NaN for a run that was stopped, and where there is nothing to compare."""
+    if run.attrs["completed"] != "yes" or probe is None:
+        return math.nan
+    scale = pressure_scale(run) or 1.0
+    if reference is not None:
+        return float(run.sph.error("probe_pressure", reference, probe=probe)["rms"])
+    t, p = run["probe_time"].values, run["probe_pressure"].values
+    if run.attrs["case_name"] == "hydrostatic-tank":
+        rest = rest_pressure(run, run["probe_y"].values)
+        return float(np.sqrt(np.mean((p[t >= 0.5 * t[-1]] - rest) ** 2)) / scale)
+    if run is finest or finest.attrs["completed"] != "yes":
+        return math.nan
+    other, window = finest["probe_pressure"].values, 0.01 * t[-1]
+    squares = []
+    for k in range(p.shape[1]):
+        one = running_mean(t, p[:, k], window, 0.2 * window)
+        two = running_mean(finest["probe_time"].values, other[:, k], window, 0.2 * window)
+        squares.append(np.mean((one.values - np.interp(one["t"], two["t"], two)) ** 2))
+    return float(np.sqrt(np.mean(squares)) / scale)
+
+
+def _order(spacings: list[float], errors: Array) -> float:
+    """Return the observed order, NaN for fewer than two errors that are known and not zero."""
+    known = np.isfinite(errors) & (errors > 0.0)
+    return convergence_order(np.array(spacings)[known], errors[known]) if known.sum() > 1 else math.nan
