@@ -79,9 +79,7 @@ def operator(
 
     Examples
     --------
-    >>> import numpy as np
     >>> from sphframe import create
-    >>> from sphframe.boundary.operator import operator
     >>> x, y = np.meshgrid(np.arange(8.0), np.arange(8.0))
     >>> positions = np.column_stack([x.ravel(), y.ravel()])
     >>> method = create("interpolators", "mls-linear")
