@@ -5,7 +5,7 @@ A conformance test is a few lines::
     from sphframe.testing import parametrize_with_checks
 
     @parametrize_with_checks([MyMethod(), MyMethod(order=2)])
-    def test_keeps_its_promises(method, check):
+    def test_has_its_traits(method, check):
         check(method)
 
 The names below are loaded on first use; importing this package compiles nothing.

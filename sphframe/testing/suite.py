@@ -102,7 +102,7 @@ def parametrize_with_checks(
     ::
 
         @parametrize_with_checks([MyMethod()])
-        def test_keeps_its_promises(method, check):
+        def test_has_its_traits(method, check):
             check(method)
     """
     import pytest

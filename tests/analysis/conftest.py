@@ -8,7 +8,7 @@ import sphframe
 
 @pytest.fixture(scope="session")
 def tank(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
-    """Still water, a few steps of it."""
+    """A few steps of still water."""
     folder: Path = tmp_path_factory.mktemp("analysis")
     case = {"particle_spacing": 0.025, "until": 0.02, "frame_interval": 0.005, "courant_number": 0.3}
     return sphframe.run("hydrostatic-tank", output=folder / "tank.nc", threads=1, **case).dataset

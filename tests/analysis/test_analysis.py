@@ -1,4 +1,4 @@
-"""Analysis: numbers and pictures from a dataset are what the dataset says."""
+"""Analysis: numbers and pictures from a dataset."""
 
 import json
 import subprocess
@@ -16,6 +16,7 @@ from sphframe.analysis import (
     probe_statistics,
     read_reference_series,
     rest_pressure,
+    running_mean,
     series_error,
     summary,
 )
@@ -116,6 +117,13 @@ def test_series_that_do_not_overlap() -> None:
         series_error(series, xr.DataArray([0.0, 1.0], coords={"t": [5.0, 6.0]}))
 
 
+def test_running_mean_is_the_mean_over_a_window() -> None:
+    t = np.linspace(0.0, 4.0, 9)
+    np.testing.assert_allclose(running_mean(t, 2.0 * t, window=1.0, step=0.5)[1:-1], np.arange(1.0, 8.0))
+    assert float(running_mean(t, 2.0 * t, window=1.0, step=0.5)[0]) == pytest.approx(0.5)  # over the first half only
+    assert running_mean([0.0], [1.0], window=1.0, step=0.5).size == 0
+
+
 def test_convergence_order() -> None:
     spacings = np.array([0.04, 0.02, 0.01])
     assert convergence_order(spacings, 3.0 * spacings**1.5) == pytest.approx(1.5)
@@ -188,8 +196,8 @@ def test_picture_that_cannot_be_written(tank: xr.Dataset, tmp_path: Path) -> Non
         plot_run(tank, field="colour")
 
 
-def test_plot_of_probes_that_read_a_constant(tank: xr.Dataset) -> None:
-    """A warning of matplotlib about equal limits is an error here."""
+def test_plot_of_probes_with_constant_pressure(tank: xr.Dataset) -> None:
+    """matplotlib would warn about equal limits, and warnings are errors in tests."""
     for value in (0.0, 5.0e3, -2.0e3):
         made = tank.assign(probe_pressure=tank["probe_pressure"] * 0 + value)
         low, high = next(axes for axes in plot_run(made).axes if "probe" in axes.get_ylabel()).get_ylim()

@@ -1,4 +1,4 @@
-"""Films and exports hold what the dataset holds, as other programs read them."""
+"""Films and exports, read by other programs, hold the data of the dataset."""
 
 from pathlib import Path
 from xml.etree import ElementTree
@@ -21,7 +21,7 @@ def test_frames_of_a_film_show_the_water(tank: xr.Dataset) -> None:
     assert still.shape == moved.shape
     assert still.shape[1] == 1280
     assert not any(size % 2 for size in still.shape[:2])
-    coloured = np.ptp(still[:, :1150, :3].astype(int), axis=2) > 40  # neither grey nor white, left of the colour bar
+    coloured = np.ptp(still[:, :1150, :3].astype(int), axis=2) > 40  # not grey, left of the colour bar
     assert coloured.sum() > 20_000
     assert (still != moved).any(), "the time, at least, changes"
 
@@ -36,7 +36,7 @@ def test_film_is_read_back(tank: xr.Dataset, tmp_path: Path, ending: str) -> Non
     assert imageio_ffmpeg.count_frames_and_secs(str(film))[0] == count
 
 
-def test_films_that_cannot_be(tank: xr.Dataset, tmp_path: Path) -> None:
+def test_films_that_cannot_be_made(tank: xr.Dataset, tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"\.mp4 or \.gif"):
         animate_run(tank, tmp_path / "tank.avi")
     with pytest.raises(InputError, match="no frame yet"):

@@ -1,4 +1,4 @@
-"""What the benchmark measures: sums that hold whatever the clock says, and loops that compute what they say."""
+"""The benchmark: relations between its results that hold for any times, and the results of its reference loops."""
 
 import itertools
 import json
@@ -34,7 +34,7 @@ def report() -> Report:
 
 
 class Nested:
-    """Each call of a clock that ticks once a call takes one tick for itself, and what it calls takes its own."""
+    """Methods that read a clock, which advances by one tick per reading, and call each other."""
 
     def __init__(self, clock):  # type: ignore[no-untyped-def]
         self.clock = clock
@@ -69,7 +69,7 @@ def test_a_stopwatch_gives_each_part_its_own_time() -> None:
     assert not stopwatch.calls
 
 
-def test_a_call_that_fails_is_counted_and_the_next_is_not_charged_for_it() -> None:
+def test_the_time_of_a_call_that_fails_counts_only_for_that_call() -> None:
     ticks = itertools.count()
     nested = Nested(lambda: next(ticks))
     stopwatch = Stopwatch(lambda: next(ticks))
@@ -113,7 +113,7 @@ def test_a_spread_compares_samples_that_were_taken_together() -> None:
     assert (a.minimum, a.median, a.maximum) == (2.0, 4.0, 9.0)
 
 
-# the flow, and the loops beside it
+# the flow and the reference loops
 
 
 @pytest.mark.parametrize(("particles", "dim"), [(300, 2), (45_000, 2), (2000, 3)])
@@ -158,19 +158,19 @@ def test_the_parts_of_a_step_add_up(report: Report) -> None:
         assert cost.ratio.samples[k] == pytest.approx(cost.evaluation.samples[k] / bare)  # type: ignore[union-attr]
     for name, part in cost.parts.items():
         assert len(part.samples) == 3
-        assert part.minimum > 0.0 or name == "neighbour list"  # lists may serve a whole window
+        assert part.minimum > 0.0 or name == "neighbour list"  # lists may remain valid for a whole window
 
 
-def test_output_is_shared_out_by_its_intervals(report: Report) -> None:
+def test_the_cost_of_output_per_step_follows_from_its_intervals(report: Report) -> None:
     (cost,) = report.steps
     case = dam_break(TINY, 2)
     for k, output in enumerate(cost.parts["output"].samples):
-        a_second = cost.sample.samples[k] / 0.001 + cost.frame.samples[k] / 0.02  # the intervals of the paper's preset
-        assert output == pytest.approx(case.time_step * a_second, rel=1e-9)  # type: ignore[operator]
+        per_second = cost.sample.samples[k] / 0.001 + cost.frame.samples[k] / 0.02  # intervals of the preset
+        assert output == pytest.approx(case.time_step * per_second, rel=1e-9)  # type: ignore[operator]
 
 
 def test_all_windows_make_the_same_steps(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(steps, "_FEWEST_STEPS", steps._MOST_STEPS)  # as many in both, however slow the first steps are
+    monkeypatch.setattr(steps, "_FEWEST_STEPS", steps._MOST_STEPS)  # for any speed
     first, second = (bench([TINY], [1], ["developed"], repeats=n).steps[0] for n in (1, 2))
     assert first.builds == second.builds > 0
     assert first.parts["neighbour list"].minimum > 0.0
@@ -233,7 +233,7 @@ def test_memory_per_particle() -> None:
 # start-up
 
 
-def test_a_fresh_process_returns_what_it_prints() -> None:
+def test_a_new_process_returns_what_it_prints() -> None:
     fresh = run_fresh("import json, os; print('noise'); print(json.dumps([1.5, os.environ['GIVEN']]))", {"GIVEN": "x"})
     assert fresh.found == [1.5, "x"]
     assert fresh.seconds > 0.0
@@ -263,14 +263,14 @@ def test_start_up_compiles_into_an_empty_cache_that_is_used_afterwards(monkeypat
     assert not Path(caches[0]).exists()
 
 
-def test_what_start_up_runs_in_fresh_processes() -> None:
+def test_the_programs_of_start_up_run_in_new_processes() -> None:
     libraries, own = run_fresh(start_up._IMPORTS).found
     assert libraries > 0.0
     assert own > 0.0
     assert run_fresh(start_up._FIRST_STEP, {"NUMBA_NUM_THREADS": "1"}).found > 0.0
 
 
-# what is asked for
+# checks of the request
 
 
 @pytest.mark.parametrize(
@@ -303,7 +303,7 @@ def test_peak_does_the_arithmetic_that_it_times():
     assert _read(np.arange(256.0).reshape(2, 128)) == sum(range(256))
 
 
-def test_peak_has_a_sample_a_repeat():
+def test_peak_has_one_sample_per_repeat():
     peak = measure_peak(2)
     assert len(peak.multiply_adds.samples) == len(peak.bytes_read.samples) == 2
     assert min(*peak.multiply_adds.samples, *peak.bytes_read.samples) > 0.0

@@ -1,4 +1,4 @@
-"""Deliberately wrong interpolation methods, each caught by the check that is meant to catch it, whatever the seed."""
+"""Deliberately wrong interpolation methods, each of which fails the check that is meant to find it, for any seed."""
 
 import math
 import statistics
@@ -27,7 +27,7 @@ Factory = Callable[[CompiledKernel, int], WeightsFunction]
 
 
 class Wrong(BoundaryInterpolator):
-    """A method made of a factory and the traits that it claims."""
+    """A method made of a factory and declared traits."""
 
     def __init__(self, factory: Factory, traits: Traits, fallback: Factory | None = None) -> None:
         self.factory = factory
@@ -166,7 +166,7 @@ def single_precision(kernel, dim):
     return weights
 
 
-# trouble at special places
+# errors at special places
 
 
 @wrong("a NaN at r = 0", "honest_status", **SHEPARD)
@@ -307,7 +307,7 @@ def silent_solve(kernel, dim):
     return first_order(kernel, dim, ridge=1e-14, guarded=False)
 
 
-@wrong("two neighbours answered with OK", "fewest_points", **LINEAR)
+@wrong("OK for two neighbours", "fewest_points", **LINEAR)
 def dishonest_solve(kernel, dim):
     return first_order(kernel, dim, ridge=1e-14, guarded=False)
 
@@ -322,32 +322,32 @@ def off_by_one(kernel, dim):
     return first_order(kernel, dim, shift=1)
 
 
-@wrong("linear claimed, constant delivered", "linear_reproduction", **LINEAR)
+@wrong("linear declared, constant reproduced", "linear_reproduction", **LINEAR)
 def constant_only(kernel, dim):
     return first_order(kernel, dim, sign=0.0)
 
 
-@wrong("quadratic claimed, linear delivered", "quadratic_reproduction", reproduces_degree=2, fewest_points=(3, 4))
+@wrong("quadratic declared, linear reproduced", "quadratic_reproduction", reproduces_degree=2, fewest_points=(3, 4))
 def linear_only(kernel, dim):
     return first_order(kernel, dim)
 
 
-@wrong("positive weights claimed of least squares", "non_negative", **LINEAR, non_negative=True)
+@wrong("positive weights declared for least squares", "non_negative", **LINEAR, non_negative=True)
 def negative(kernel, dim):
     return first_order(kernel, dim)
 
 
-@wrong("a restricted range claimed of least squares", "range_restricted", **LINEAR, **AVERAGE)
+@wrong("a restricted range declared for least squares", "range_restricted", **LINEAR, **AVERAGE)
 def out_of_range(kernel, dim):
     return first_order(kernel, dim)
 
 
-@wrong("independence of volumes claimed of least squares", "volume_independence", **LINEAR, volume_independent=True)
+@wrong("independence of volumes declared for least squares", "volume_independence", **LINEAR, volume_independent=True)
 def uses_volumes(kernel, dim):
     return first_order(kernel, dim)
 
 
-# broken symmetries
+# missing symmetries
 
 
 @wrong("the exponent of Eq. 20 as printed, in metres", "unit_independence", **SHEPARD)
@@ -424,7 +424,7 @@ def single_precision_distances(kernel, dim):
     return weights
 
 
-@wrong("a jump at the nearest particle, continuity claimed", "continuity", **SHEPARD)
+@wrong("a jump at the nearest particle, continuity declared", "continuity", **SHEPARD)
 def nearest_only(kernel, dim):
     def weights(offsets, distances, kernel_values, volumes, support, lift, out):
         nearest = 0
@@ -438,15 +438,15 @@ def nearest_only(kernel, dim):
     return weights
 
 
-@wrong("softened distances, interpolation claimed", "interpolates_particles", **SHEPARD)
+@wrong("softened distances, interpolation declared", "interpolates_particles", **SHEPARD)
 def blurred(kernel, dim):
     return skewed(kernel, dim)
 
 
-# bad manners
+# violations of the calling convention
 
 
-@wrong("adds to what out held before", "repeatable", **AVERAGE)
+@wrong("adds to the previous values of out", "repeatable", **AVERAGE)
 def stale_out(kernel, dim):
     def weights(offsets, distances, kernel_values, volumes, support, lift, out):
         for j in range(out.shape[0]):
@@ -567,7 +567,7 @@ def check_called(case, name):
     return next(check for check in checks_of(case.method) if check.name == name)
 
 
-def test_there_are_enough_of_them():
+def test_there_are_enough_wrong_methods():
     assert len(CASES) >= 25
 
 

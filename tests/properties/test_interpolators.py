@@ -1,4 +1,4 @@
-"""Properties of the methods that ship, beyond the traits that every method can promise."""
+"""Properties of the methods of the project that are not traits of the interface."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ FAST = settings(deadline=None, max_examples=60)
 
 @pytest.mark.parametrize("dim", [2, 3])
 @pytest.mark.parametrize("name", ["improved-shepard", "shepard", "normalized", "adami"])
-def test_a_lone_neighbour_gets_weight_one(name, dim):
+def test_a_single_neighbour_has_weight_one(name, dim):
     run = evaluator(create("interpolators", name), dim)
 
     @FAST
@@ -63,7 +63,7 @@ def test_least_squares_is_that_of_numpy(name, degree, dim):
 
 
 @pytest.mark.parametrize(("name", "count"), [("mls-linear", 2), ("mls-quadratic", 5), ("sfdi", 2), ("mdbc", 2)])
-def test_too_few_points_are_never_solved_for(name, count):
+def test_too_few_points_are_never_solved(name, count):
     method = create("interpolators", name)
     rng = np.random.default_rng(0)
     for _ in range(50):
@@ -73,13 +73,13 @@ def test_too_few_points_are_never_solved_for(name, count):
 
 
 @pytest.mark.parametrize("form", ["coupled", "printed"])
-def test_sfdi_with_one_column_of_particles_falls_back(form):
+def test_sfdi_with_one_column_of_particles_uses_the_fallback(form):
     cloud = Cloud([[0.1, 0.5 * k] for k in range(-4, 5)], np.ones(9), 3.0)
     assert evaluate(create("interpolators", "sfdi", form=form), cloud).status == SINGULAR
 
 
 def test_printed_sfdi_errs_on_linear_fields_as_published():
-    """The error is bounded by a fraction of |grad f| dx and is not round-off: the printed form drops the cross term."""
+    """The error is a bounded fraction of |grad f| dx, since the printed form omits the cross term."""
     run = evaluator(create("interpolators", "sfdi", form="printed"), 2)
     rng = np.random.default_rng(2)
     errors = []
@@ -91,6 +91,6 @@ def test_printed_sfdi_errs_on_linear_fields_as_published():
     assert 1e-3 < max(errors) < 0.2
 
 
-def test_two_neighbours_at_the_very_cut_off_get_positive_weights():
+def test_two_neighbours_at_the_cut_off_have_positive_weights():
     cloud = Cloud([[-2.9999999999, 0.0], [0.0, 2.9999999999999]], np.ones(2), 3.0)
     assert evaluate(create("interpolators", "normalized"), cloud).weights.min() >= 0.0

@@ -1,4 +1,4 @@
-"""Checks of kernels, equations of state, integrators and bodies: what ships passes, wrong ones are caught."""
+"""Checks of kernels, equations of state, integrators and bodies: built-in ones pass, wrong ones fail."""
 
 import math
 from dataclasses import dataclass
@@ -19,12 +19,12 @@ SHIPPED = [
 
 
 @parametrize_with_checks(SHIPPED)
-def test_what_ships_keeps_its_promises(component, check):
+def test_built_in_components_pass(component, check):
     check(component)
 
 
 class Tent(Kernel):
-    """1 - q/2, whose derivative over q is infinite at the centre, or the like with a mistake."""
+    """w = 1 - q/2, whose derivative over q is infinite at the centre, or a similar kernel with a mistake."""
 
     support: ClassVar[float] = 2.0
 
@@ -44,7 +44,7 @@ class Tent(Kernel):
 
 
 class Forgetful(Tent):
-    """Its gradient as a function of q^2 is that of q."""
+    """A kernel that returns the gradient as a function of q in place of q^2."""
 
     def gradient_of_square_function(self):
         return self.gradient
@@ -84,7 +84,7 @@ class Euler(Integrator):
 
 
 class LateEuler(Euler):
-    """A midpoint scheme that asks for the rates of the wrong time."""
+    """A midpoint scheme that evaluates the rates at the wrong time."""
 
     order = 2
     evaluations = 2
@@ -124,10 +124,10 @@ class Spring(RigidBody):
         return Motion(position, velocity, acceleration)
 
 
-def test_the_right_ones_pass():
+def test_right_components_pass():
     for component in (Tent(), State(), Euler(energy=None), Paddle(), Spring()):
         for check in checks_of(component):
-            if not (isinstance(component, Euler) and check.name == "energy"):  # Euler's energy does grow
+            if not (isinstance(component, Euler) and check.name == "energy"):  # the energy of Euler's scheme increases
                 check(component)
 
 
@@ -161,12 +161,12 @@ def test_the_right_ones_pass():
         (Spring(stopped=False), "stop"),
     ],
 )
-def test_a_wrong_one_is_caught(component, name):
+def test_a_wrong_component_fails_its_check(component, name):
     check = next(check for check in checks_of(component) if check.name == name)
     with pytest.raises(BrokenPromiseError):
         check(component)
 
 
-def test_something_else_has_no_checks():
+def test_other_objects_have_no_checks():
     with pytest.raises(TypeError, match="BoundaryInterpolator, Kernel, EquationOfState"):
         checks_of("gaussian")

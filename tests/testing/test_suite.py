@@ -1,4 +1,4 @@
-"""The verification suite itself: clouds, evaluation, decorator, plugin, report."""
+"""The verification suite: clouds, evaluation, decorator, pytest plugin, report."""
 
 import json
 import subprocess
@@ -56,7 +56,7 @@ def test_clouds_are_valid_neighbourhoods(data):
 
 
 @pytest.mark.parametrize("dim", [2, 3])
-def test_families_are_what_they_say(dim):
+def test_families_have_the_property_in_their_name(dim):
     of = {family: [build(family, dim, seed) for seed in range(8)] for family in FAMILIES}
     assert all(len(cloud) <= 6 for cloud in of["spray"])
     assert all((cloud.distances == 0.0).any() for cloud in of["at a particle"])
@@ -74,7 +74,7 @@ def test_spacings_reach_from_micrometres_to_kilometres():
         assert found.support < 10.0 ** (exponent + 1)
 
 
-def test_a_cloud_is_its_own_code():
+def test_the_repr_of_a_cloud_is_code():
     cloud = catalogue(2, ("spray",), lifted=True)[3]
     again = eval(repr(cloud), {"Cloud": Cloud})
     assert np.array_equal(again.offsets, cloud.offsets)
@@ -82,7 +82,7 @@ def test_a_cloud_is_its_own_code():
     assert (again.support, again.volumes.tolist()) == (cloud.support, cloud.volumes.tolist())
 
 
-def test_the_smallest_cloud_keeps_what_matters_and_rounds_the_rest():
+def test_reduction_of_a_cloud_keeps_the_failure_and_rounds_other_numbers():
     def near_three(cloud):
         return "three" if np.sum(cloud.distances < 0.5 * cloud.support) >= 3 else None
 
@@ -92,7 +92,7 @@ def test_the_smallest_cloud_keeps_what_matters_and_rounds_the_rest():
     assert np.array_equal(cloud.offsets, np.round(cloud.offsets, 1))
 
 
-def test_evaluate_tells_weights_and_status():
+def test_evaluate_returns_weights_and_status():
     cloud = Cloud([[1.0, 0.0], [0.0, 1.0]], volumes=[1.0, 1.0], support=3.0)
     outcome = evaluate(create("interpolators", "shepard"), cloud)
     assert outcome.weights.tolist() == [0.5, 0.5]
@@ -100,7 +100,7 @@ def test_evaluate_tells_weights_and_status():
     assert evaluate(create("interpolators", "mls-linear"), cloud).status == Status.TOO_FEW
 
 
-def test_the_ids_say_what_is_checked():
+def test_ids_of_tests_name_component_and_check():
     @parametrize_with_checks([create("interpolators", "sfdi", form="printed")], expected_failures={"compiles": "why"})
     def prove(method, check):
         pass
@@ -117,7 +117,7 @@ def test_a_test_function_needs_two_arguments():
         parametrize_with_checks([])(lambda method: None)
 
 
-def test_checks_of_all_traits_can_be_asked_for():
+def test_checks_of_undeclared_traits_are_optional():
     method = create("interpolators", "normalized")
     names = {check.name for check in checks_of(method, promised_only=False)}
     assert names - {check.name for check in checks_of(method)} == {
@@ -125,14 +125,14 @@ def test_checks_of_all_traits_can_be_asked_for():
     }  # fmt: skip
 
 
-def test_a_verified_method_and_a_table(capsys):
+def test_verification_of_a_method_prints_a_table(capsys):
     assert print_verification(["shepard"]) == 0
     shown = capsys.readouterr().out
     assert "all 1 have their declared traits" in shown
     assert shown.splitlines()[1].split()[1:] == ["yes", "yes", "yes", "-", "-", "yes", "yes", "yes", "yes", "yes"]
 
 
-def test_a_broken_promise_ends_with_one(install, capsys):
+def test_a_violated_trait_exits_with_one(install, capsys):
     source = """
         from sphframe import OK, BoundaryInterpolator, Traits
 
@@ -156,7 +156,7 @@ def test_a_broken_promise_ends_with_one(install, capsys):
     assert any("sum to 2" in check["failure"] for check in report["checks"] if check["failure"])
 
 
-def test_what_cannot_be_used_is_reported_not_raised():
+def test_components_that_cannot_be_created_are_reported():
     (report,) = verify(["improved-shepard[mu=-1]"])
     assert report.broken
     assert "mu must be a positive number" in report.error
@@ -190,7 +190,7 @@ def test_importing_the_suite_compiles_nothing():
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-def test_magnification_is_what_extrapolation_costs():
+def test_magnification_increases_with_extrapolation():
     square = np.array([[x, y] for x in (-1.0, 0.0, 1.0) for y in (-1.0, 0.0, 1.0)])
     inside = Cloud(square, np.ones(9), 3.0)
     assert magnification(inside, 1) == pytest.approx(1.0)

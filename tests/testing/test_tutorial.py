@@ -1,4 +1,4 @@
-"""The tutorial for plugin authors, executed as it is written, outside of this repository."""
+"""The tutorial for plugin authors, executed as written, outside of this repository."""
 
 import os
 import re
@@ -16,7 +16,7 @@ BLOCK = re.compile(r"^```(bash|python|text)\n(.*?)^```$", re.MULTILINE | re.DOTA
 
 
 class Reader:
-    """Does what the tutorial says, in ``folder``."""
+    """Executes the blocks of the tutorial in ``folder``."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -44,7 +44,7 @@ class Reader:
                 assert done.returncode == int(comment or 0), f"{line}\n{self.output}"
 
     def install(self) -> None:
-        """What pip does with an editable install, without a network."""
+        """Do what an editable install by pip does, without a network."""
         project = tomllib.loads((self.folder / "pyproject.toml").read_text())["project"]
         info = self.site / f"{project['name'].replace('-', '_')}-{project['version']}.dist-info"
         info.mkdir()

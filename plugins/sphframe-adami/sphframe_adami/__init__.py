@@ -9,17 +9,17 @@ __all__ = ["Adami"]
 
 @dataclass(frozen=True)
 class Adami(BoundaryInterpolator):
-    """Normalised kernel weights at the ghost particle itself (Eqs. 22, 23 and 27 of Adami et al. 2012).
+    """Normalised kernel weights, evaluated at the ghost particle (Eqs. 22, 23 and 27 of Adami et al. 2012).
 
-    With W_j taken at the ghost::
+    With W_j the kernel at the distance of particle j from the ghost::
 
         Phi_j = W_j / sum_k W_k V_k * V_j
 
-    The hydrostatic term of their Eq. 27 is the ``balanced`` lift of sphframe.
+    The ``balanced`` lift of sphframe is the hydrostatic term of their Eq. 27.
 
-    Departs from the paper: the volume V_j stands beside W_j, which their Eq. 27 leaves out because all of their
-    particles are of one size. TOO_FEW where all W_j V_j are zero in floating point; the fallback is the nearest
-    particle.
+    Departs from the paper: W_j is multiplied by the volume V_j. Their Eq. 27 omits it, as all of their particles have
+    the same size. The status is TOO_FEW where all W_j V_j are zero in floating point; the fallback is the value of the
+    nearest particle.
 
     Source: Adami, Hu & Adams (2012), doi:10.1016/j.jcp.2012.05.005.
     """
@@ -27,7 +27,7 @@ class Adami(BoundaryInterpolator):
     traits = Traits(non_negative=True, range_restricted=True, evaluation_point=EvaluationPoint.GHOST)
 
     def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
-        """Return the weights function; it uses the kernel values and the volumes alone."""
+        """Return the weights function; it uses only the kernel values and the volumes."""
 
         def weights(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]
             n = distances.shape[0]

@@ -4,5 +4,5 @@ from sphframe.testing import parametrize_with_checks
 
 
 @parametrize_with_checks([Adami()])
-def test_keeps_its_promises(method, check):
+def test_has_its_traits(method, check):
     check(method)

@@ -17,30 +17,30 @@ from sphframe import (
 __all__ = ["MDBC"]
 
 _THINNEST = 1e-8
-"""smallest pivot relative to its own scale"""
+"""smallest pivot, relative to its scale"""
 
 
 @dataclass(frozen=True)
 class MDBC(BoundaryInterpolator):
     """First-order consistent SPH at the mirror point, extrapolated to the ghost particle.
 
-    At the mirror point m (the paper's ghost node), with all offsets counted from it::
+    At the mirror point m (the paper's ghost node), with all offsets relative to it::
 
         A [f_m, grad f_m]^T = sum_j V_j f_j [W_j, grad W_j]^T,   A = sum_j V_j [W_j, grad W_j]^T [1, x_j - x_m]
         f_G = f_m + (x_G - x_m) . grad f_m
 
-    which is still linear in f_j: Phi_j = V_j (y_0 W_j + y . grad W_j) with A^T [y_0, y]^T = [1, x_G - x_m]^T. The
+    which is linear in f_j: Phi_j = V_j (y_0 W_j + y . grad W_j) with A^T [y_0, y]^T = [1, x_G - x_m]^T. The
     weights are exact on linear fields at x_G and need no hydrostatic lift.
 
-    Departs from the paper: the kernel average is used where sphframe finds A ill-conditioned (SINGULAR: pivots, or
-    sum |Phi_j| above ``amplification``) and below 3 (4) neighbours in 2-D (3-D), TOO_FEW, instead of where the
-    determinant falls below a fixed number.
+    Departs from the paper: the kernel average is used with fewer than 3 (4) neighbours in 2-D (3-D), TOO_FEW, and where
+    a pivot of A is too small or sum |Phi_j| exceeds ``amplification``, SINGULAR. The paper uses it where the
+    determinant of A is below a fixed number.
 
     Source: English et al. (2022), doi:10.1007/s40571-021-00403-3; Liu & Liu (2006), doi:10.1016/j.apnum.2005.02.012.
     """
 
     amplification: float = 10.0
-    """largest sum |Phi_j|, by which noise may be amplified"""
+    """largest accepted sum |Phi_j|, the factor by which noise may be amplified"""
 
     traits = Traits(reproduces_degree=1, fewest_points=(3, 4), evaluation_point=EvaluationPoint.EXTRAPOLATED)
 
@@ -61,9 +61,9 @@ class MDBC(BoundaryInterpolator):
             if n < terms:
                 return TOO_FEW
             per_h = smoothing_lengths / support
-            gradient_scale = -normalisation * per_h**dim  # so that the rows of grad W carry the unit and sign of W
+            gradient_scale = -normalisation * per_h**dim  # gives the rows of grad W the unit and the sign of W
 
-            # A^T with lengths in units of h; the constant comes last, after a symmetric positive block
+            # A^T with lengths in units of h; the constant is last, after a symmetric positive block
             basis = local_array(terms)
             basis[dim] = 1.0
             matrix = local_array(entries)

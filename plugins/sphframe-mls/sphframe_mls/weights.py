@@ -14,7 +14,7 @@ from sphframe import (
 )
 
 _THINNEST = 1e-8
-"""smallest pivot relative to its degree's own scale: the square of the relative thickness of the cloud"""
+"""smallest pivot, relative to the scale of its degree: the square of the relative thickness of the cloud"""
 
 
 @dataclass(frozen=True)
@@ -25,16 +25,17 @@ class LinearMLS(BoundaryInterpolator):
 
         Phi_j = e_1 . M^-1 b_j W_j V_j,   M = sum_j b_j b_j^T W_j V_j
 
-    TOO_FEW below 3 (4) neighbours in 2-D (3-D); SINGULAR where the neighbours lie on one line (plane), found from the
-    pivots of M and not from a failed solve, which may succeed and return weights that sum to 0.6; SINGULAR too where
-    sum |Phi_j| exceeds ``amplification``. The fallback is the kernel average.
+    The status is TOO_FEW for fewer than 3 (4) neighbours in 2-D (3-D). It is SINGULAR where the neighbours lie on one
+    line (plane), and where sum |Phi_j| exceeds ``amplification``. Neighbours on a line are recognised by the pivots of
+    M: a solver of linear systems may find a solution for them, with weights that sum to 0.6. The fallback is the kernel
+    average.
 
     Source: Lancaster & Salkauskas (1981), doi:10.1090/S0025-5718-1981-0616367-1; Marrone et al. (2011),
     doi:10.1016/j.cma.2010.12.016; Huang et al., Water 11 (2019).
     """
 
     amplification: float = 3.0
-    """largest sum |Phi_j|, by which noise may be amplified"""
+    """largest accepted sum |Phi_j|, the factor by which noise may be amplified"""
 
     traits = Traits(reproduces_degree=1, fewest_points=(3, 4))
 
@@ -50,12 +51,13 @@ class LinearMLS(BoundaryInterpolator):
 class QuadraticMLS(BoundaryInterpolator):
     """Moving least squares of degree two: exact on quadratic fields.
 
-    As :class:`LinearMLS` with the full quadratic basis of 6 (10) terms in 2-D (3-D). TOO_FEW below 6 (10) neighbours,
-    SINGULAR where they lie on one conic (quadric). The fallback is the kernel average.
+    The equation is that of :class:`LinearMLS` with the full quadratic basis of 6 (10) terms in 2-D (3-D). The status is
+    TOO_FEW for fewer than 6 (10) neighbours, and SINGULAR where they lie on one conic (quadric). The fallback is the
+    kernel average.
     """
 
     amplification: float = 3.0
-    """largest sum |Phi_j|, by which noise may be amplified"""
+    """largest accepted sum |Phi_j|, the factor by which noise may be amplified"""
 
     traits = Traits(reproduces_degree=2, fewest_points=(6, 10))
 
@@ -97,7 +99,7 @@ def _least_squares(degree: int, kernel: CompiledKernel, dim: int, amplification:
                 for b in range(a + 1):
                     matrix[a * terms + b] += weight * basis[a] * basis[b]
 
-        # the scale of a pivot: the mean diagonal of the terms of its degree, which no rotation changes
+        # the scale of a pivot: the mean diagonal entry of the terms of its degree, which is invariant under rotation
         linear_scale = 0.0
         quadratic_scale = 0.0
         for a in range(last):
@@ -119,7 +121,7 @@ def _least_squares(degree: int, kernel: CompiledKernel, dim: int, amplification:
             if not matrix[a * terms + a] > thinnest * scale:
                 return SINGULAR
 
-        # with the constant last, M c = e_last needs back substitution alone
+        # with the constant last, M c = e_last needs only back substitution
         solution = local_array(terms)
         solution[last] = 1.0 / matrix[entries - 1]
         for k in range(1, terms):

@@ -11,8 +11,8 @@ __all__ = ["Normalized"]
 class Normalized(BoundaryInterpolator):
     """Normalised kernel weights (Eqs. 14-16 of Huang et al. 2019): Phi_j = W_j V_j / sum_k W_k V_k.
 
-    TOO_FEW where all W_j V_j are zero in floating point, as for a lone particle at the very cut-off; the fallback is
-    the nearest particle.
+    The status is TOO_FEW where all W_j V_j are zero in floating point, as for a single particle at the cut-off; the
+    fallback is the value of the nearest particle.
 
     Source: Randles & Libersky (1996), doi:10.1016/S0045-7825(96)01090-0; Huang et al., Water 11 (2019).
     """
@@ -20,7 +20,7 @@ class Normalized(BoundaryInterpolator):
     traits = Traits(non_negative=True, range_restricted=True)
 
     def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
-        """Return the weights function; it uses the kernel values and the volumes alone."""
+        """Return the weights function; it uses only the kernel values and the volumes."""
 
         def weights(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]
             n = distances.shape[0]

@@ -18,37 +18,37 @@ from sphframe import (
 __all__ = ["SFDI"]
 
 _THINNEST = 1e-8
-"""smallest pivot relative to the mean diagonal: the square of the relative thickness of the cloud"""
+"""smallest pivot, relative to the mean diagonal entry: the square of the relative thickness of the cloud"""
 
 
 @dataclass(frozen=True)
 class SFDI(BoundaryInterpolator):
-    """Simplified finite difference interpolation: a kernel average, corrected by a gradient at the nearest particle.
+    """Simplified finite difference interpolation: a kernel average, corrected by the gradient at the nearest particle.
 
-    With r_ji = x_j - x_i about the particle i nearest to the evaluation point r::
+    With r_ji = x_j - x_i, where i is the particle nearest to the evaluation point r::
 
         f(r)   = sum_j W_j f_j / sum W - R0 . grad f,            R0 = sum_j W_j (x_j - r) / sum W
         grad f = N^-1 sum_j W(|r_ji|)/|r_ji|^2 r_ji (f_j - f_i),  N = sum_j W(|r_ji|)/|r_ji|^2 r_ji r_ji^T
 
-    so that, with B_j = W(|r_ji|)/|r_ji|^2 r_ji . N^-1 R0::
+    which gives, with B_j = W(|r_ji|)/|r_ji|^2 r_ji . N^-1 R0::
 
         Phi_j = W_j / sum W - B_j   (j not i),   Phi_i = W_i / sum W + sum_{k not i} B_k
 
-    ``form="coupled"`` takes the whole of N and is exact on linear fields. ``form="printed"`` keeps only the diagonal of
-    N, as Eqs. 10-12 do: it is neither exact on linear fields nor invariant under rotation.
+    ``form="coupled"`` uses the full matrix N and is exact on linear fields. ``form="printed"`` uses only its
+    diagonal, as Eqs. 10-12 do; it is neither exact on linear fields nor invariant under rotation.
 
-    Departs from the paper: ``coupled`` is the default; R0 counts from the evaluation point, as the Taylor expansion
-    demands. Of several particles at the same smallest distance, i is the first in the order of coordinates. TOO_FEW
-    below 2 neighbours (coupled: 3 in 2-D, 4 in 3-D); SINGULAR where N has no inverse or sum |Phi_j| exceeds
-    ``amplification``. The fallback is the kernel average.
+    Departs from the paper: ``coupled`` is the default, and R0 is relative to the evaluation point, as the Taylor
+    expansion requires. Of several particles at the same smallest distance, i is the first in the order of coordinates.
+    The status is TOO_FEW for fewer than 2 neighbours (coupled: 3 in 2-D, 4 in 3-D), and SINGULAR where N has no inverse
+    or sum |Phi_j| exceeds ``amplification``. The fallback is the kernel average.
 
     Source: Ma (2008), doi:10.3970/cmes.2008.023.075; Huang et al., Water 11 (2019).
     """
 
     form: Literal["coupled", "printed"] = "coupled"
-    """the whole of N, or its diagonal as in the paper"""
+    """the full matrix N, or its diagonal as in the paper"""
     amplification: float | None = None
-    """largest sum |Phi_j|, by which noise may be amplified; by default 3, for the printed form 10"""
+    """largest accepted sum |Phi_j|, the factor by which noise may be amplified; by default 3 (printed: 10)"""
 
     def __post_init__(self) -> None:
         if self.form not in ("coupled", "printed"):
@@ -58,13 +58,13 @@ class SFDI(BoundaryInterpolator):
 
     @property
     def traits(self) -> Traits:
-        """What the chosen form promises."""
+        """The traits of the chosen form."""
         if self.form == "coupled":
             return Traits(reproduces_degree=1, fewest_points=(3, 4), volume_independent=True, continuous=False)
         return Traits(fewest_points=(2, 2), rotation_invariant=False, volume_independent=True, continuous=False)
 
     def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
-        """Return the weights function; it uses the kernel between neighbours."""
+        """Return the weights function; it uses kernel values between neighbours."""
         coupled = self.form == "coupled"
         fewest = self.traits.fewest_points[dim - 2]
         largest = 10.0 if self.form == "printed" else 3.0
@@ -97,7 +97,7 @@ class SFDI(BoundaryInterpolator):
                 return SINGULAR
             share = 1.0 / total
 
-            # right-hand side R0 and matrix N, both in units of h; out[j] keeps W(|r_ji|) / |r_ji|^2 for the second pass
+            # right-hand side R0 and matrix N, both in units of h; out[j] holds W(|r_ji|) / |r_ji|^2 for the second pass
             correction = local_array(dim)
             matrix = local_array(entries)
             for a in range(dim):

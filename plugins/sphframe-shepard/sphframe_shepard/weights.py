@@ -1,4 +1,4 @@
-"""Inverse-distance weights: Shepard's, and the improved ones of Huang et al. (2019)."""
+"""Inverse-distance weights: those of Shepard (1968), and the improved ones of Huang et al. (2019)."""
 
 import math
 from dataclasses import dataclass
@@ -17,8 +17,8 @@ _TRAITS = Traits(
 class Shepard(BoundaryInterpolator):
     """Shepard's weights (Eqs. 17-18 of Huang et al. 2019): Phi_j = r_j^-mu / sum_k r_k^-mu.
 
-    At r_j = 0 the value is that of the particle there, or the mean of all particles there: on a lattice, mirror points
-    do coincide with particles, and the printed formula divides zero by zero.
+    At r_j = 0 the value is that of the particle, or the mean of all particles at the point. On a lattice mirror points
+    coincide with particles, and the printed formula divides zero by zero.
 
     Source: Shepard (1968), doi:10.1145/800186.810616; Huang et al., Water 11 (2019).
     """
@@ -32,7 +32,7 @@ class Shepard(BoundaryInterpolator):
         _check_positive("mu", self.mu)
 
     def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
-        """Return the weights function; it uses the distances alone."""
+        """Return the weights function; it uses only the distances."""
         mu = _as_power(self.mu)
 
         def weights(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]
@@ -43,7 +43,7 @@ class Shepard(BoundaryInterpolator):
             total = 0.0
             for j in range(n):
                 if nearest > 0.0:
-                    out[j] = (nearest / distances[j]) ** mu  # relative to the nearest: no overflow
+                    out[j] = (nearest / distances[j]) ** mu  # relative to the nearest particle, to avoid overflow
                 else:
                     out[j] = 1.0 if distances[j] == 0.0 else 0.0
                 total += out[j]
@@ -62,10 +62,10 @@ class ImprovedShepard(BoundaryInterpolator):
 
         Phi_j = phi_j^mu / sum_k phi_k^mu,   phi(s) = beta(s)/s,   beta(s) = exp[-s^2 / (1 - s^attenuation)]
 
-    Departs from the paper: distances are scaled by R, since Eq. 20 as printed gives other weights in metres than in
-    millimetres; the particle volume of Eq. 21 is left out, with which the weights would not sum to one. Weights are
-    formed relative to the nearest particle, which has the largest: near the cut-off phi underflows, and a lone
-    particle there must still get weight 1. At r_j = 0 as for Shepard's.
+    Departs from the paper: distances are divided by R, as the weights of the printed Eq. 20 depend on the unit of
+    length. The particle volume of Eq. 21 is left out, as the weights would not sum to one with it. Weights are computed
+    relative to that of the nearest particle, the largest one: near the cut-off phi underflows, and a single particle
+    there must have weight 1. At r_j = 0 the value is that of :class:`Shepard`.
 
     Source: Huang et al., Water 11 (2019).
     """
@@ -82,10 +82,10 @@ class ImprovedShepard(BoundaryInterpolator):
         _check_positive("attenuation", self.attenuation)
 
     def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
-        """Return the weights function; it uses the distances and the cut-off radius alone."""
+        """Return the weights function; it uses only the distances and the cut-off radius."""
         mu, attenuation = _as_power(self.mu), _as_power(self.attenuation)
         smallest = 1e-290  # 1 - s^attenuation may round to zero for s just below 1
-        negligible = -36.0  # beside the nearest particle's weight, exp(-36) is round-off
+        negligible = -36.0  # relative to the weight of the nearest particle, exp(-36) is round-off
 
         def weights(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]
             n = distances.shape[0]
@@ -95,7 +95,7 @@ class ImprovedShepard(BoundaryInterpolator):
             if nearest > 0.0:
                 s = nearest / support
                 largest_exponent = -s * s / max(1.0 - s**attenuation, smallest)
-                for j in range(n):  # without branches or calls of the C library: it vectorises
+                for j in range(n):  # no branches and no calls of the C library, so that the loop vectorises
                     s = distances[j] / support
                     exponent = mu * (-s * s / max(1.0 - s**attenuation, smallest) - largest_exponent)
                     out[j] = (nearest / distances[j]) ** mu * fast_exp(max(exponent, negligible) / 4) ** 4
@@ -118,5 +118,5 @@ def _check_positive(name: str, value: float) -> None:
 
 
 def _as_power(value: float) -> float:
-    """An integral exponent as an int, which is compiled to multiplications."""
+    """Return an integral exponent as an int, for which powers are compiled to multiplications."""
     return int(value) if float(value).is_integer() else float(value)
