@@ -1,4 +1,4 @@
-"""The house stays in order: layers, public names, and the tools that read the source."""
+"""Architecture: the layers of the rooms, public names, and the tools that check the source."""
 
 import ast
 import importlib

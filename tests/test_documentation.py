@@ -72,7 +72,7 @@ def test_every_command_has_a_how_to_with_all_its_options() -> None:
 
 
 def command_lines() -> list[str]:
-    """All calls of sphframe in code blocks of the README and the documentation; the tutorial's are run elsewhere."""
+    """All calls of sphframe in code blocks of the README and the documentation, except those of the tutorial."""
     pages = {ROOT / "README.md", *DOCS.rglob("*.md")} - {DOCS / "tutorial_plugin.md"}
     line = re.compile(r"^ {4}(?:uv run )?(sphframe [a-z].*?)(?: +# .*)?$", flags=re.MULTILINE)
     texts = [re.sub(r" \\\n\s*", " ", page.read_text(encoding="utf-8")) for page in pages]

@@ -16,7 +16,8 @@ def running_mean(times: ArrayLike, values: ArrayLike, window: float, step: float
 
         mean(t) = 1/W int_(t - W/2)^(t + W/2) f(s) ds
 
-    where f between two samples is their mean. At both ends of the series the window is shortened to the part that has samples.
+    where f between two samples is their mean. At both ends of the series the window is shortened to the part with
+    samples.
 
     Parameters
     ----------
