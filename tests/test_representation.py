@@ -1,4 +1,4 @@
-"""Cases, runs, methods and listings show themselves: in a line, and in a notebook as a short table."""
+"""How cases, runs, methods and listings are shown: in one line, and in a notebook as a short table."""
 
 from dataclasses import dataclass
 from html.parser import HTMLParser

@@ -24,7 +24,7 @@ class SolitaryWaveFlume(Case):
     """A flume with a piston at its left end and a seawall at its right end, in two dimensions.
 
     The paddle starts at t = 0 by the convention of :class:`sphframe.bodies.SolitaryWavePaddle`, at x = 0 or up to half
-    a particle spacing beside it, so that a whole number of particles fits between it and the seawall, which rises from
+    a particle spacing from it, so that a whole number of particles fits between it and the seawall, which rises from
     the bed at x = ``tank_length``. In addition to what every case records, the output holds
     ``gauge_elevation`` at gauges G1, G2, ... along the flume, ``probe_pressure`` at P0, P1, ... on the seawall, and the
     diagnostic ``run_up``.
@@ -68,7 +68,7 @@ class SolitaryWaveFlume(Case):
     probe_interval: float = with_default(Case, "probe_interval", 0.005)
 
     def paddle(self) -> SolitaryWavePaddle:
-        """Return the paddle, which knows the wave's theoretical speed and time of arrival."""
+        """Return the paddle, which computes the theoretical speed and time of arrival of the wave."""
         return SolitaryWavePaddle(
             wave_height=self.wave_height, depth=self.depth, theory=self.wave_theory, gravity=self.gravity
         )

@@ -2,7 +2,7 @@
 
 A ghost particle at x_G outside the fluid belongs to the nearest point c of its wall. Its mirror point is
 x_M = 2 c - x_G, inside the fluid, and its reflection matrix S turns the velocity of the fluid relative to the wall at
-the mirror point into that of the ghost for free slip: S = 1 - 2 n n^T beside a face; the product of the faces'
+the mirror point into that of the ghost for free slip: S = 1 - 2 n n^T next to a face; the product of the faces'
 reflections where c lies on an edge or corner, which for two faces of a plane is the point reflection S = -1.
 
 Source: S. Marrone et al. (2011), doi:10.1016/j.cma.2010.12.016; X. Huang et al. (2019), doi:10.3390/w11051110,

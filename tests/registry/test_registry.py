@@ -1,4 +1,4 @@
-"""Each test installs real little distributions: packages with metadata and entry points in a folder on the path."""
+"""The registry with small distributions: packages with metadata and entry points in a folder on the path."""
 
 import importlib.metadata
 import json
