@@ -27,10 +27,10 @@ from sphframe_huang2019.variants import OURS, PAPER, Variant, row_of_run, run_wi
 __all__ = ["SECTION"]
 
 SHOWN = tuple(v for v in PAPER if v.method != "normalized")
-"""the paper shows four methods here"""
+"""the four methods that the paper shows for this case"""
 VARIANTS = (*SHOWN, next(v for v in PAPER if v.method == "normalized"), *OURS)
 WINDOW = 0.05
-"""s, of the running mean from which the noise of a pressure is measured"""
+"""width of the running mean from which the noise of a pressure is measured, s"""
 
 
 def _label(variant: Variant) -> str:

@@ -1,4 +1,4 @@
-"""How the history of a quantity with a variant is drawn, the same in all figures."""
+"""Time series in figures: one style for each variant."""
 
 from typing import Any
 

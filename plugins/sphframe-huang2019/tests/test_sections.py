@@ -1,4 +1,4 @@
-"""What the sections read from series of known shape."""
+"""Figures and verdicts that the sections derive from series and times of known values."""
 
 import math
 from dataclasses import replace
@@ -16,7 +16,7 @@ from sphframe.studies import Verdict
 
 
 def pressure() -> xr.DataArray:
-    """Nothing, a first peak of 0.7, a plateau of 0.5, a second peak of 0.9 at 5.8."""
+    """Zero, then a first peak of 0.7, a plateau of 0.5, and a second peak of 0.9 at 5.8."""
     t = np.arange(0.0, 7.0, 0.01)
     p = np.where(t < 2.5, 0.0, 0.5) + 0.2 * np.exp(-(((t - 2.8) / 0.1) ** 2)) + 0.4 * np.exp(-(((t - 5.8) / 0.1) ** 2))
     return xr.DataArray(p, coords={"t": t})

@@ -15,7 +15,7 @@ LABELS = {v.method: v.label for v in PAPER}
 def claims(
     figures: Mapping[str, Mapping[str, Medians]], growth: Mapping[str, float], disturbed: str | None
 ) -> list[Claim]:
-    """Judge the claims; if ``disturbed`` says why the times decide nothing, none of them can be checked."""
+    """Judge the claims; ``disturbed``, if not None, is the reason why none of them can be checked."""
     judged = [
         *(_on_growth(method, power, growth[LABELS[method]]) for method, power in GROWTH.items()),
         *(

@@ -1,4 +1,4 @@
-"""From measured times to medians."""
+"""Medians of measured times."""
 
 import math
 from collections.abc import Iterable, Mapping
@@ -12,7 +12,7 @@ from sphframe_huang2019.cost.states import FIRST
 __all__ = ["Medians", "disturbance", "growth", "medians"]
 
 SPREAD = 0.2
-"""distance of the quartiles over the median, from which on a measurement decides nothing"""
+"""largest distance of the quartiles over the median for which the claims are judged"""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ def growth(by_ratio: Mapping[float, Mapping[str, Medians]], method: str) -> floa
 
 
 def disturbance(runs: Iterable[xr.Dataset], measured: Iterable[Mapping[str, Medians]]) -> str | None:
-    """Return why the measured times decide nothing, or None if the machine had no other work."""
+    """Return why the claims cannot be judged by the times, or None if the machine had no other work."""
     busy = max(float(run.attrs["busy"]) for run in runs)
     spread = max(float(np.median([one.fill_spread for one in found.values()])) for found in measured)
     if spread < SPREAD:

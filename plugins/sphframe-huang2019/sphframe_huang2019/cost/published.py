@@ -1,4 +1,4 @@
-"""What the paper says about costs."""
+"""Costs according to the paper."""
 
 from collections.abc import Mapping
 

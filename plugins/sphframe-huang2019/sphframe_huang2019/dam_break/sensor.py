@@ -38,14 +38,14 @@ def measured_series(reference: Reference) -> dict[str, xr.DataArray]:
 
 
 def sensor_pressure(dataset: xr.Dataset, probe: str) -> xr.DataArray:
-    """Pressure at a sensor over rho g H, running mean, over t sqrt(g/H)."""
+    """Return the pressure at a sensor, running mean, in units of rho g H over t sqrt(g/H)."""
     t = dataset["probe_time"].values / time_scale(dataset)
     p = dataset["probe_pressure"].sel(probe=probe).values / pressure_scale(dataset)
     return running_mean(t, p, WINDOW, 0.01)
 
 
 def events(series: xr.DataArray) -> dict[str, float]:
-    """Arrival, peaks and plateau of a pressure at the sensor, the same way for measured and computed ones."""
+    """Return arrival, peaks and plateau of a measured or computed pressure at the sensor; NaN if it ends too early."""
     t, p = series["t"].values, series.values
     first, plateau, second = (series.sel(t=slice(*w)) for w in ((2.4, 3.2), (3.2, 4.8), (5.0, 7.0)))
     there = np.flatnonzero((p > 0.1) & (t > 2.0))
@@ -61,7 +61,7 @@ def events(series: xr.DataArray) -> dict[str, float]:
 
 
 def rms_difference(series: xr.DataArray, experiment: xr.DataArray | None, at_points: bool = False) -> float:
-    """RMS difference over the compared times, or ``at_points`` that were digitised; NaN for a run that ended before."""
+    """Return the RMS difference over the compared times, or ``at_points`` that were digitised; NaN for short runs."""
     if experiment is None or not series.size or float(series["t"][-1]) < COMPARED.stop - 0.1:
         return math.nan
     try:
@@ -74,7 +74,7 @@ def rms_difference(series: xr.DataArray, experiment: xr.DataArray | None, at_poi
 
 
 def _rms_differences(series: xr.DataArray, experiments: Mapping[str, xr.DataArray]) -> dict[str, Cell]:
-    """RMS differences to the digitisations, by both rules."""
+    """Return the RMS differences from the digitisations, by both rules."""
     found: dict[str, Cell] = {}
     for rule, at_points in (("RMS to digitisation", False), ("RMS at its points,", True)):
         for k, experiment in enumerate(experiments.values(), start=1):
@@ -83,7 +83,7 @@ def _rms_differences(series: xr.DataArray, experiments: Mapping[str, xr.DataArra
 
 
 def _single_valued(series: xr.DataArray) -> xr.DataArray:
-    """A digitised series with one value at each time."""
+    """Return a digitised series with one value at each time."""
     t, first = np.unique(series["t"].values, return_index=True)
     return xr.DataArray(series.values[first], coords={"t": t})
 
@@ -113,7 +113,7 @@ def sensor_tables(
 
 
 def _published_table(reference: Reference, experiments: Mapping[str, xr.DataArray]) -> Table:
-    """RMS differences of the published delta-SPH simulations, over the same times."""
+    """Return the same figures of the published delta-SPH simulations."""
     rows: list[dict[str, Cell]] = []
     for column, resolution in ((2, "H/40"), (4, "H/80"), (3, "H/320")):
         series = reference.get(SIMULATION, column)
@@ -127,7 +127,7 @@ def _published_table(reference: Reference, experiments: Mapping[str, xr.DataArra
 
 
 def goal(runs: Mapping[str, xr.Dataset], experiments: Mapping[str, xr.DataArray]) -> str:
-    """Compare the RMS differences with the goals of this project, in a sentence."""
+    """Return sentences that compare the RMS differences with the goals of this project."""
     if not experiments:
         return "The goals of the RMS difference to the experiment cannot be checked: no reference series were given."
     parts = []
