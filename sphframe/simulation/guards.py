@@ -53,7 +53,7 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array) -> 
     rows, n = system.rows, system.fluid_count
     lowest, highest = (factor * case.reference_density for factor in guards.density_band)
     broken, outside, first_outside, out_of_range, first_out_of_range = _check_fluid(
-        rows, n, case.dimension, lower, upper, lowest, highest
+        rows, n, columns, lower, upper, lowest, highest
     )
 
     def stop(index: int, what: str, causes: str) -> NoReturn:
@@ -91,7 +91,7 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array) -> 
 
 def _check_ghosts(system: FluidSystem, case: Case) -> None:
     boundary = system.boundary
-    g = _first_bad_ghost(system.rows, system.fluid_count, case.dimension, boundary.statuses, len(Status))
+    g = _first_bad_ghost(system.rows, system.fluid_count, system.columns, boundary.statuses, len(Status))
     if g < boundary.count:
         row, columns = system.rows[system.fluid_count + g], system.columns
         raise SimulationError(
@@ -179,7 +179,7 @@ def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator, kernel
 
 
 @numba.njit(parallel=True, cache=True)
-def _check_fluid(rows, n, dim, lower, upper, lowest, highest):  # type: ignore[no-untyped-def]
+def _check_fluid(rows, n, columns, lower, upper, lowest, highest):  # type: ignore[no-untyped-def]
     """Return the first of ``n`` rows that is not finite; number and first of those outside the box; number and first
     of those with a density outside ``lowest`` .. ``highest``. A first one that does not exist is n."""
     broken = n
@@ -189,10 +189,10 @@ def _check_fluid(rows, n, dim, lower, upper, lowest, highest):  # type: ignore[n
     first_out_of_range = n
     for i in numba.prange(n):
         inside = True
-        density = rows[i, 2 * dim]
+        density = rows[i, columns.density]
         total = density
-        for k in range(dim):
-            total += rows[i, dim + k] ** 2 + rows[i, k]
+        for k in range(columns.dim):
+            total += rows[i, columns.u + k] ** 2 + rows[i, k]
             inside = inside and rows[i, k] >= lower[k] and rows[i, k] <= upper[k]
         if not math.isfinite(total):
             broken = min(broken, i)
@@ -206,11 +206,11 @@ def _check_fluid(rows, n, dim, lower, upper, lowest, highest):  # type: ignore[n
 
 
 @numba.njit(cache=True)
-def _first_bad_ghost(rows, first, dim, statuses, status_count):  # type: ignore[no-untyped-def]
+def _first_bad_ghost(rows, first, columns, statuses, status_count):  # type: ignore[no-untyped-def]
     """Return the first ghost whose state is not finite or whose status is not a :class:`Status`; g if there is none."""
     for g in range(statuses.shape[0]):
-        total = rows[first + g, 2 * dim] + rows[first + g, 2 * dim + 1]
-        for k in range(2 * dim):
+        total = rows[first + g, columns.density] + rows[first + g, columns.pressure]
+        for k in range(columns.density):
             total += rows[first + g, k]
         if not math.isfinite(total) or statuses[g] < 0 or statuses[g] >= status_count:
             return g

@@ -71,7 +71,7 @@ class FluidSystem(System):
         count = lists.fluid_count
         self.rows, self.lists = rows, lists
         self.ids = np.arange(count)
-        self.rates, self._start, self._total = (np.zeros((count, 2 * dim + 1)) for _ in range(3))
+        self.rates, self._start, self._total = (np.zeros((count, self.columns.density + 1)) for _ in range(3))
         self.gradient = np.zeros((count, dim))
         self._spare = np.zeros((count, self.columns.width))
         self._pressure_is_current = False
@@ -216,17 +216,17 @@ class FluidSystem(System):
 
     def drift(self, interval: float) -> None:
         """x = x + interval * u."""
-        advance_position(self.rows, self.fluid_count, self.columns.dim, interval)
+        advance_position(self.rows, self.fluid_count, self.columns, interval)
         self.bodies.drift(interval)
 
     def kick(self, interval: float) -> None:
         """u = u + interval * acceleration."""
-        advance_velocity(self.rows, self.rates, self.columns.dim, interval)
+        advance_velocity(self.rows, self.rates, self.columns, interval)
         self.bodies.kick(interval)
 
     def update_density(self, interval: float) -> None:
         """rho = rho + interval * density rate."""
-        advance_density(self.rows, self.rates, self.columns.dim, interval)
+        advance_density(self.rows, self.rates, self.columns, interval)
         self._pressure_is_current = False
 
     # what restarts a run

@@ -30,23 +30,23 @@ def accumulate_rates(total, rates, weight):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(parallel=True, cache=True)
-def advance_position(rows, count, dim, interval):  # type: ignore[no-untyped-def]
-    """Add dt u to the positions of the first ``count`` rows."""
+def advance_position(rows, count, columns, interval):  # type: ignore[no-untyped-def]
+    """Add dt u to the positions of the first ``count`` rows, whose ``columns`` are given."""
     for i in numba.prange(count):
-        for k in range(dim):
-            rows[i, k] += interval * rows[i, dim + k]
+        for k in range(columns.dim):
+            rows[i, k] += interval * rows[i, columns.u + k]
 
 
 @numba.njit(parallel=True, cache=True)
-def advance_velocity(rows, rates, dim, interval):  # type: ignore[no-untyped-def]
+def advance_velocity(rows, rates, columns, interval):  # type: ignore[no-untyped-def]
     """Add dt a, from the accelerations in ``rates`` (n, 2 dim + 1), to the velocities."""
     for i in numba.prange(rates.shape[0]):
-        for k in range(dim, 2 * dim):
+        for k in range(columns.u, columns.density):
             rows[i, k] += interval * rates[i, k]
 
 
 @numba.njit(parallel=True, cache=True)
-def advance_density(rows, rates, dim, interval):  # type: ignore[no-untyped-def]
+def advance_density(rows, rates, columns, interval):  # type: ignore[no-untyped-def]
     """Add dt times the density rate in ``rates`` (n, 2 dim + 1) to the densities."""
     for i in numba.prange(rates.shape[0]):
-        rows[i, 2 * dim] += interval * rates[i, 2 * dim]
+        rows[i, columns.density] += interval * rates[i, columns.density]
