@@ -245,6 +245,7 @@ def _cluster(count: int, workers: int | None, scheduler: str | None) -> Iterator
     if find_spec("distributed") is None:
         raise InputError("this needs dask.distributed: install it with python -m pip install 'sphframe[reproduce]'")
     import dask
+    import distributed  # noqa: F401  (before the settings: they would remove those of distributed at their end)
 
     with dask.config.set(_DASK_SETTINGS):
         if scheduler is not None:
