@@ -1,4 +1,4 @@
-"""Studies: what a section has to say: tables, pictures and judgements of the paper's claims."""
+"""Studies: the contents of a section of a report: tables, pictures, and verdicts on published claims."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -8,12 +8,12 @@ from typing import Literal
 __all__ = ["Cell", "Chapter", "Claim", "Picture", "Table", "Verdict"]
 
 Cell = str | float | int | None
-"""None and NaN: not known"""
+"""value in a table; None and NaN mean that it is not known"""
 
 
 @dataclass(frozen=True)
 class Table:
-    """Rows by column; ``name`` is that of its CSV file. A table without rows is left out."""
+    """A table. ``name`` is that of its CSV file, without suffix. A table without rows is left out of the report."""
 
     name: str
     caption: str
@@ -21,13 +21,13 @@ class Table:
 
     @property
     def heads(self) -> list[str]:
-        """The columns: all that any row has."""
+        """Heads of the columns: all keys of all rows."""
         return list(dict.fromkeys(head for row in self.rows for head in row))
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure as the content of its file; ``name`` is the file's, without suffix."""
+    """A figure as the content of an image file. ``name`` is that of the file, without suffix."""
 
     name: str
     caption: str
@@ -36,7 +36,7 @@ class Picture:
 
 
 class Verdict(Enum):
-    """What became of a claim."""
+    """Result of checking a claim."""
 
     REPRODUCED = "reproduced"
     NOT_REPRODUCED = "not reproduced"
@@ -45,7 +45,10 @@ class Verdict(Enum):
 
 @dataclass(frozen=True)
 class Claim:
-    """What the paper says at ``where``, its number and ours, and the reason for the verdict."""
+    """A published statement with the published and the measured value, the verdict, and the reason for the verdict.
+
+    ``where`` is the place of the statement, such as a figure or a section.
+    """
 
     where: str
     statement: str
@@ -56,7 +59,7 @@ class Claim:
 
     @classmethod
     def judged(cls, where: str, statement: str, published: str, measured: str, holds: bool, reason: str) -> "Claim":
-        """Return a claim that was measured, and holds or not."""
+        """Return a claim that was checked by measurement."""
         verdict = Verdict.REPRODUCED if holds else Verdict.NOT_REPRODUCED
         return cls(where, statement, published, measured, verdict, reason)
 
@@ -77,4 +80,4 @@ class Chapter:
     pictures: Sequence[Picture] = ()
     claims: Sequence[Claim] = ()
     absent: Sequence[str] = ()
-    """reference series that were not given, with the reason"""
+    """reference series that were not available, with the reason"""

@@ -1,4 +1,4 @@
-"""Studies: how figures look and become files of the same bytes each time."""
+"""Studies: the look of figures, and their conversion to image files with reproducible bytes."""
 
 import io
 import itertools

@@ -1,4 +1,4 @@
-"""Studies: what the sections read from series of samples."""
+"""Studies: reference series, and figures that several sections derive from a run."""
 
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,12 @@ __all__ = ["Reference", "ended", "fallback_share"]
 
 
 class Reference:
-    """The folder of reference series that the user named, or none; remembers what was asked for in vain."""
+    """Reference series in a folder that the user names, or none.
+
+    Attributes
+    ----------
+    absent: messages about the series that were requested and are not available.
+    """
 
     def __init__(self, folder: Path | None) -> None:
         if folder is not None and not folder.is_dir():
@@ -21,9 +26,9 @@ class Reference:
         self.absent: list[str] = []
 
     def get(self, name: str, column: int | str = 1) -> xr.DataArray | None:
-        """Return the series ``name``, or None where it is not there."""
+        """Return the series ``name``, or None if it is not available."""
         if self._folder is None:
-            self._note(f"{name}: no --reference folder was named")
+            self._note(f"{name}: no --reference folder was given")
             return None
         try:
             return read_reference_series(self._folder, name, column)
@@ -37,7 +42,7 @@ class Reference:
 
 
 def ended(dataset: xr.Dataset) -> str:
-    """Return "yes" for a run that came to its end, else how far it came."""
+    """Return "yes" for a run that reached its end, otherwise the time at which it stopped."""
     if dataset.attrs["completed"] == "yes":
         return "yes"
     end = float(dataset["probe_time"][-1]) if dataset.sizes["probe_time"] else 0.0
@@ -45,7 +50,14 @@ def ended(dataset: xr.Dataset) -> str:
 
 
 def fallback_share(dataset: xr.Dataset) -> float:
-    """Share of wet ghosts, in per cent, for which the method declined and its fallback was used."""
+    """Return the share of wet ghosts, in per cent, for which the method declined and its fallback was used.
+
+    ::
+
+        100 (TOO_FEW + SINGULAR) / (OK + TOO_FEW + SINGULAR)
+
+    from the statuses of all samples of the run. Dry ghosts, which have no fluid in their support, are not counted.
+    """
     statuses: dict[str, Any] = summary(dataset).get("statuses", {})
     declined = float(statuses.get("TOO_FEW", 0.0) + statuses.get("SINGULAR", 0.0))
     wet = declined + float(statuses.get("OK", 0.0))

@@ -1,4 +1,4 @@
-"""``compare``: one dataset over method and resolution."""
+"""``compare`` makes one dataset over method and resolution."""
 
 from pathlib import Path
 
@@ -39,7 +39,7 @@ def test_the_command_gives_a_dataset_a_table_and_figures(cluster: str, tmp_path:
     assert {"report.html", "tables/comparison.csv", "figures/comparison.svg", "figures/comparison_probes.svg"} <= made
 
 
-def test_without_exact_values_the_finest_is_the_measure(cluster: str, tmp_path: Path) -> None:
+def test_without_exact_values_the_error_is_from_the_finest_spacing(cluster: str, tmp_path: Path) -> None:
     found = compare("dam-break", ["shepard"], [0.06, 0.05, 0.04], output=tmp_path, parameters=DAM, scheduler=cluster)
     error = found.dataset["error"].sel(interpolator="shepard").values
     assert np.isfinite(error[:2]).all()
@@ -47,7 +47,7 @@ def test_without_exact_values_the_finest_is_the_measure(cluster: str, tmp_path: 
     assert "finest spacing" in found.dataset["error"].attrs["long_name"]
 
 
-def test_with_a_reference_the_error_is_to_it(cluster: str, tmp_path: Path) -> None:
+def test_with_a_reference_the_error_is_from_the_reference(cluster: str, tmp_path: Path) -> None:
     series = tmp_path / "level.csv"
     series.write_text("# columns: t sqrt(g/H),p/(rho g H)\n0.1,1.0\n0.5,1.0\n1.0,1.0\n")
     found = compare(
@@ -73,7 +73,7 @@ def test_with_a_reference_the_error_is_to_it(cluster: str, tmp_path: Path) -> No
         (["reproduce", "--output", "x", "--only", "movable-wall", "--workers", "0"], "--workers 0"),
     ],
 )
-def test_what_is_wrong_is_told_before_anything_runs(
+def test_wrong_input_is_refused_before_anything_runs(
     arguments: list[str], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)

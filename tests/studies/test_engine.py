@@ -1,4 +1,4 @@
-"""Tasks on a cluster: each once, whatever fails, and one command at a time."""
+"""Tasks run once each, also after failures, and only one command uses a folder at a time."""
 
 import contextlib
 import os
@@ -20,7 +20,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:Sending large graph")
 
 @dataclass(frozen=True)
 class Fails(Task):
-    """A task whose worker has a mishap."""
+    """A task that fails."""
 
     def perform(self, path: Path, threads: int, on_part: PartListener) -> None:
         """Fail."""
@@ -35,7 +35,9 @@ def make(tiny: ModuleType) -> Callable[..., RunTask]:
     return make
 
 
-def test_what_is_done_is_kept_and_the_rest_is_told(make: Callable[..., RunTask], cluster: str, tmp_path: Path) -> None:
+def test_finished_tasks_are_kept_and_progress_is_reported(
+    make: Callable[..., RunTask], cluster: str, tmp_path: Path
+) -> None:
     one, two = make("one"), make("two", interpolator="shepard")
     seen: list[Progress] = []
     files = carry_out([one], tmp_path, scheduler=cluster)
@@ -82,7 +84,7 @@ def test_a_second_command_in_the_folder_is_refused(make: Callable[..., RunTask],
         os.close(descriptor)
 
 
-def test_no_scheduler_and_no_workers_are_told(make: Callable[..., RunTask], tmp_path: Path) -> None:
+def test_no_scheduler_and_no_workers_are_refused(make: Callable[..., RunTask], tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no dask scheduler answers there"):
         carry_out([make("one")], tmp_path, scheduler="nonsense://x")
     with pytest.raises(InputError, match="--workers 0"):

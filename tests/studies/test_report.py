@@ -1,4 +1,4 @@
-"""The report: self-contained, escaped, complete."""
+"""The report is self-contained and complete, and its text is escaped."""
 
 import csv
 import importlib.util
@@ -40,7 +40,7 @@ def test_names_are_escaped_and_nothing_comes_from_elsewhere(report: Path, tiny: 
     assert "http://" not in html
     assert "https://" not in html
     assert "quick version" in page.text
-    assert "no --reference folder was named" in page.text
+    assert "no --reference folder was given" in page.text
 
 
 def test_tables_are_files(report: Path, tiny: ModuleType) -> None:

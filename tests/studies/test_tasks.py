@@ -1,4 +1,4 @@
-"""A task's name, its one result, and what an interruption leaves."""
+"""The name of a task, its result, and the files that an interruption leaves."""
 
 from pathlib import Path
 from types import ModuleType
@@ -18,7 +18,7 @@ from sphframe.studies.tasks import UNFINISHED, RunTask, work
 
 
 def quiet(part: float) -> None:
-    """Be told of progress."""
+    """Ignore progress."""
 
 
 def unfinished(folder: Path, task: RunTask) -> Path:
@@ -66,22 +66,20 @@ def test_the_name_changes_with_the_code_of_the_method(tiny: ModuleType, install:
     assert len(names) == 2
 
 
-def test_a_result_is_there_whole_and_made_once(
-    tiny: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_result_is_complete_and_made_once(tiny: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     task = RunTask.of("one", tiny.tank(until=0.1))
-    told: list[float] = []
-    work(task, str(tmp_path), task.name, 1, told.append)
+    parts: list[float] = []
+    work(task, str(tmp_path), task.name, 1, parts.append)
     result = tmp_path / task.name
     with open_dataset(result) as dataset:
         assert dataset.attrs["completed"] == "yes"
     made = (result.stat().st_ino, result.stat().st_mtime_ns)
 
     def never(*_: object) -> None:
-        raise AssertionError("done work is done again")
+        raise AssertionError("a finished task is performed again")
 
     monkeypatch.setattr(RunTask, "perform", never)
-    work(task, str(tmp_path), task.name, 1, told.append)
+    work(task, str(tmp_path), task.name, 1, parts.append)
     assert (result.stat().st_ino, result.stat().st_mtime_ns) == made
     assert {path.suffix for path in (tmp_path / UNFINISHED).iterdir()} == {".lock"}
 
@@ -108,7 +106,7 @@ def test_an_interrupted_run_goes_on_from_its_checkpoint(tiny: ModuleType, tmp_pa
             assert (dataset["position"].values == whole["position"].values).all()
 
 
-def test_a_run_that_had_ended_is_only_put_in_its_place(tiny: ModuleType, tmp_path: Path) -> None:
+def test_a_finished_run_is_only_moved(tiny: ModuleType, tmp_path: Path) -> None:
     task = RunTask.of("one", tiny.tank(until=0.05))
     path = unfinished(tmp_path, task)
     run(task.case(), output=path, threads=1).dataset.close()
@@ -118,7 +116,7 @@ def test_a_run_that_had_ended_is_only_put_in_its_place(tiny: ModuleType, tmp_pat
 
 
 @pytest.mark.parametrize("content", [b"", b"CDF\x05 no more", b"\x89HDF"])
-def test_what_is_damaged_is_run_anew(tiny: ModuleType, tmp_path: Path, content: bytes) -> None:
+def test_damaged_files_are_replaced_by_a_new_run(tiny: ModuleType, tmp_path: Path, content: bytes) -> None:
     task = RunTask.of("one", tiny.tank(until=0.05))
     path = unfinished(tmp_path, task)
     path.write_bytes(content)

@@ -1,10 +1,11 @@
-"""Why one combination did not rest: the eigenvalues of a column of still water.
+"""Eigenvalues of a column of still water: why water at rest was unstable with one combination of method and lift.
 
-``python -m validation.hydrostatic_tank.column`` writes the equations of sphframe once more, in plain NumPy and
-independently of it, for water that moves only vertically (layers of one particle, repeated sideways, over a bed of
-fixed ghost particles), lets the column come to rest, linearises it about that state, and prints the growth rate of
-the first vertical sound wave: with the ghosts' velocity as the method interpolates it and made conjugate to their
-pressure (see :mod:`sphframe.boundary.conjugate`), and what each part of the equations at the bed contributes.
+``python -m validation.hydrostatic_tank.column`` implements the equations of sphframe in plain NumPy, independently of
+it, for water that moves only vertically (layers of one particle, repeated sideways, over a bed of fixed ghost
+particles). It computes the state of rest of the column, linearises the equations about that state, and prints the
+growth rate of the first vertical sound wave, with the ghosts' velocity as the method interpolates it and with the
+velocity that is conjugate to their pressure (see :mod:`sphframe.boundary.conjugate`), and the contribution of each part
+of the equations at the bed.
 """
 
 from dataclasses import dataclass, replace
@@ -92,7 +93,7 @@ class Column:
         elif self.conjugate:
             across = height + self.mirror[:, None]
             share = (self.slope(self.sideways(across)).sum(axis=2)) * across * volume
-            seen = share.sum(axis=1) > 0.0  # nobody sees the others
+            seen = share.sum(axis=1) > 0.0  # the other ghosts have no particle in their support
             answer[seen] = share[seen] / share[seen].sum(axis=1)[:, None]
         return -(answer @ velocity), weights @ pressure + DENSITY * GRAVITY * rise
 
@@ -171,7 +172,7 @@ def power_beside_the_bed(column: Column) -> Array:
 
 
 def main() -> None:
-    """Print growth rates and what they come from."""
+    """Print growth rates and the contributions to them."""
     print("lift      ghosts' velocity  method      delta  alpha  growth, 1/s  frequency, 1/s")
     for method in ("shepard-2", "normalized"):
         for lift, conjugate in (("balanced", False), ("mirror", False), ("mirror", True)):
@@ -184,14 +185,14 @@ def main() -> None:
                     flush=True,
                 )
 
-    print("\nnormalized, mirror lift: growth, 1/s, with the method's velocity and conjugate")
+    print("\nnormalized, mirror lift: growth, 1/s, with the method's velocity and with the conjugate one")
     for layers in (15, 30, 60):
         for stretch in (1.1, 1.2, 1.3, 1.4, 1.5):
             column = Column(layers=layers, stretch=stretch)
             before, after = growth(replace(column, conjugate=False)), growth(column)
             print(f"{layers} layers, h/dx {stretch}: {before.real:6.2f} {after.real:6.2f}", flush=True)
 
-    print("\nwhere it comes from: normalized, growth, 1/s, of the operator about the state of rest of another column")
+    print("\nnormalized: growth, 1/s, of the operator about the state of rest of another column")
     columns = {
         "balanced": Column(lift="balanced"),
         "mirror": Column(conjugate=False),
@@ -200,7 +201,10 @@ def main() -> None:
     states = {name: column.rest() for name, column in columns.items()}
     for operator, column in columns.items():
         for about, state in states.items():
-            print(f"{operator} about the rest of {about}: {first_wave(column.jacobian(state))[0].real:.2f}", flush=True)
+            print(
+                f"{operator} about the state of rest of {about}: {first_wave(column.jacobian(state))[0].real:.2f}",
+                flush=True,
+            )
 
     print("\nfirst-order change of the growth, 1/s, of the mirror lift's wave by a change of the operator alone")
     column, state = columns["mirror"], states["mirror"]

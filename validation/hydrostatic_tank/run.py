@@ -1,116 +1,87 @@
-"""Still water with every method and both lifts: ``python -m validation.hydrostatic_tank.run``."""
+"""Still water with every method and both lifts: ``python -m validation.hydrostatic_tank.run --output FOLDER``."""
 
-from pathlib import Path
-from typing import Any
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
-from matplotlib.figure import Figure
 
+from sphframe import studies
 from sphframe.analysis import pressure_scale, probe_statistics, rest_pressure, summary
-from validation import study
+from validation.command import carry_out
 
-HERE = Path(__file__).parent
+METHODS = ("improved-shepard", "normalized", "shepard", "sfdi", "mls-linear", "mls-quadratic")
 LIFTS = ("balanced", "mirror")
 
 
-def figures(dataset: xr.Dataset) -> dict[str, Any]:
-    """Errors over the second half of the run, in per cent of rho g H."""
-    scale = pressure_scale(dataset)
+def tasks(quick: bool) -> list[studies.Task]:
+    """Return one run for each lift and method."""
+    size = {"particle_spacing": 0.05, "until": 0.1} if quick else {"particle_spacing": 0.01, "until": 5.0}
+    methods = ("improved-shepard", "mls-linear") if quick else METHODS
+    return [
+        studies.run_task(f"{method}, {lift}", "hydrostatic-tank", interpolator=method, hydrostatic_lift=lift, **size)
+        for lift in LIFTS
+        for method in methods
+    ]
+
+
+def row(dataset: xr.Dataset) -> dict[str, studies.Cell]:
+    """Return the errors over the second half of a run, in per cent of rho g H."""
+    known, percent = summary(dataset), 100.0 / pressure_scale(dataset)
     probes = probe_statistics(dataset, expected=rest_pressure(dataset, dataset["probe_y"].values))
-    error, noise = 100.0 * np.abs(probes["error"].values) / scale, 100.0 * probes["std"].values / scale
+    mean, deviation = percent * np.abs(probes["error"].values), percent * probes["std"].values
     half = dataset.sel(time=slice(0.5 * float(dataset["time"][-1]), None)).load()
-    rest = rest_pressure(dataset, half["position"].isel(space=-1).values)
-    known = summary(dataset)
-    kinetic = dataset["kinetic_energy"].sel(probe_time=slice(probes.attrs["start"], None))
+    error = half["pressure"].values - rest_pressure(dataset, half["position"].isel(space=-1).values)
+    kinetic = dataset["kinetic_energy"].sel(probe_time=slice(probes.attrs["start"], None)).mean()
     return {
         "lift": known["hydrostatic_lift"],
         "method": known["interpolator"],
-        "completed": known["completed"],
-        "time": known["time"],
-        "error_corner": float(error[0]),
-        "error_wall": float(error[1:].max()),
-        "noise_corner": float(noise[0]),
-        "noise_wall": float(noise[1:].max()),
-        "rms_field": 100.0 * float(np.sqrt(np.mean((half["pressure"].values - rest) ** 2))) / scale,
-        "kinetic": float(kinetic.mean() / dataset["potential_energy"][0]),
-        "fallback": 100.0 * (known["statuses"]["TOO_FEW"] + known["statuses"]["SINGULAR"]),
-        "outside": known["particles_outside"],
-        "steps": known["steps"],
-        "seconds": known["wall_clock"],
+        "mean, corner (%)": float(mean[0]),
+        "mean, wall (%)": float(mean[1:].max()),
+        "std, corner (%)": float(deviation[0]),
+        "std, wall (%)": float(deviation[1:].max()),
+        "RMS, fluid (%)": percent * float(np.sqrt(np.mean(error**2))),
+        "kinetic energy": float(kinetic / dataset["potential_energy"][0]),
+        "fallback (% of wet ghosts)": studies.fallback_share(dataset),
+        "behind walls": known["particles_outside"],
+        "to the end": studies.ended(dataset),
     }
 
 
-def row(found: dict[str, Any]) -> dict[str, str]:
-    """One line of the README's table."""
-    stable = found["completed"] == "yes" and found["outside"] == 0
-    return {
-        "lift": found["lift"],
-        "method": found["method"],
-        "mean, corner": f"{found['error_corner']:.2f}",
-        "mean, wall": f"{found['error_wall']:.2f}",
-        "std, corner": f"{found['noise_corner']:.2f}",
-        "std, wall": f"{found['noise_wall']:.2f}",
-        "RMS, fluid": f"{found['rms_field']:.2f}",
-        "kinetic energy": f"{found['kinetic']:.1e}",
-        "fallback": f"{found['fallback']:.2f}",
-        "stable": "yes" if stable else f"no, ends at {found['time']:.2f} s",
-    }
-
-
-def draw(datasets: dict[tuple[str, str], xr.Dataset], path: Path) -> None:
-    """Pressure at the probe in mid-height against time, one panel a lift."""
-    figure = Figure(figsize=(10, 3.6), dpi=110, layout="constrained")
+def histories(runs: Mapping[str, xr.Dataset]) -> studies.Picture:
+    """Draw the pressure at the probe at a third of the depth, one panel for each lift."""
+    figure = studies.new_figure(10.0, 3.6)
     for axes, lift in zip(figure.subplots(1, 2, sharey=True), LIFTS, strict=True):
-        for (a_lift, method), dataset in datasets.items():
-            if a_lift == lift:
-                series = dataset["probe_pressure"].isel(probe=1)
+        for dataset in runs.values():
+            known = summary(dataset)
+            if known["hydrostatic_lift"] == lift:
+                method = known["interpolator"]
                 rest = rest_pressure(dataset, dataset["probe_y"].values[1])
-                deviation = 100.0 * (series - rest) / pressure_scale(dataset)
-                axes.plot(dataset["probe_time"], deviation, linewidth=0.7, label=method)
-        axes.axhline(0.0, color="black", linewidth=0.6)
-        axes.set(title=f"{lift} lift", xlabel="t (s)", ylim=(-4.0, 4.0))
-        axes.grid(linewidth=0.4, alpha=0.4)
-        axes.spines[["top", "right"]].set_visible(False)
-    figure.axes[0].set_ylabel(r"$(p - p_{rest}) / (\rho g H)$, %")
+                deviation = 100.0 * (dataset["probe_pressure"].isel(probe=1) - rest) / pressure_scale(dataset)
+                style = {"color": studies.colour(method), "linewidth": 0.7, "label": method}
+                axes.plot(*studies.thinned(dataset["probe_time"], deviation), **style)
+        studies.tidy(axes, title=f"{lift} lift", xlabel="t (s)", ylim=(-4.0, 4.0))
+    figure.axes[0].set_ylabel("(p - p at rest) / (rho g H), %")
     figure.axes[0].legend(fontsize=8, frameon=False, ncols=2, loc="lower right")
-    figure.suptitle("Still water, pressure on the wall a third of the depth above the bed")
-    figure.savefig(path)
+    return studies.picture("probe", "Pressure on the wall, a third of the depth above the bed.", figure)
 
 
-def main() -> None:
-    """Run the study."""
-    options = study.parser(__doc__ or "", "output/hydrostatic_tank")
-    options.add_argument("--until", type=float, default=5.0, help="s")
-    options.add_argument("--lifts", nargs="+", default=LIFTS, choices=LIFTS)
-    given = options.parse_args()
-    datasets = {}
-    for lift in given.lifts:
-        for method in given.methods:
-            datasets[lift, method] = study.dataset_of(
-                "hydrostatic-tank",
-                given.output / f"{method}_{lift}.nc",
-                again=given.again,
-                threads=given.threads,
-                particle_spacing=given.particle_spacing,
-                until=given.until,
-                interpolator=method,
-                hydrostatic_lift=lift,
-            )
-            print(study.table([row(figures(datasets[lift, method]))]), flush=True)
-    found = [figures(dataset) for dataset in datasets.values()]
-    text = study.table([row(one) for one in found])
-    print(text)
-    if not given.no_readme:
-        study.replace_block(HERE / "README.md", "figures", text)
-        study.write_csv(
-            HERE / "key_figures.csv",
-            found,
-            "still water, second half of the run; error_, noise_, rms_ in % of rho g H; fallback in % of ghosts;"
-            " kinetic over the initial potential energy; see README.md",
-        )
-        draw(datasets, HERE / "probe.png")
+def chapter(runs: Mapping[str, xr.Dataset], reference: studies.Reference, quick: bool) -> studies.Chapter:
+    """Return the table of errors and the pressures at a probe."""
+    rows = [row(dataset) for dataset in runs.values()]
+    table = studies.Table("key_figures", "Still water, second half of the run", rows)
+    return studies.Chapter("hydrostatic-tank", "Still water in a tank", tables=[table], pictures=[histories(runs)])
+
+
+class StillWater(studies.Study):
+    """Still water in a tank: what moves is an error of the wall boundary."""
+
+    title = "Validation: still water in a tank"
+    source = "Case of section 4.1 of Huang et al., Water 11 (2019) 1110, doi:10.3390/w11051110."
+
+    def sections(self) -> Sequence[studies.Section]:
+        """Return the only section."""
+        return [studies.Section("hydrostatic-tank", tasks, chapter)]
 
 
 if __name__ == "__main__":
-    main()
+    carry_out(StillWater())

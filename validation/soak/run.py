@@ -1,7 +1,7 @@
 """Memory and checkpoints of a long run: ``python -m validation.soak.run --output SCRATCH_FOLDER``.
 
-Runs the tank of still water for 35 s in a process of its own, with a checkpoint every 10 s of wall time, and samples
-the memory of that process every 10 s.
+Runs the tank of still water for 35 s in a separate process, with a checkpoint every 10 s of wall-clock time, and
+samples the memory of that process every 10 s.
 """
 
 import argparse
@@ -41,7 +41,9 @@ def main() -> None:
                 samples.append((time.monotonic() - began, resident(process.pid)))
                 restart = output.with_name(output.name + ".restart")
                 checkpoints.update([restart.stat().st_mtime] if restart.exists() else [])
-    late = [memory for at, memory in samples[:-1] if at >= 60.0]  # the last may be of the result as it is opened
+    late = [
+        memory for at, memory in samples[:-1] if at >= 60.0
+    ]  # without the last, which may be that of opening the result
     print(f"exit code {process.returncode} after {time.monotonic() - began:.0f} s, {len(checkpoints)} checkpoints seen")
     print(f"memory after the first minute {late[0] / 1024:.1f} MiB, at most {max(late) / 1024:.1f} MiB after it")
     print(f"growth {100.0 * (max(late) / late[0] - 1.0):.2f} %")
