@@ -118,7 +118,7 @@ def _pieces(item: Any, seen: set[int]) -> Iterator[str]:
         seen.add(id(item))
         yield f"function {item.__module__} {_plain_name(item)}"
         yield repr(item.__defaults__)
-        yield from _code_pieces(item.__code__)
+        yield from _code_pieces(item.__code__, item.__doc__)
         scope = inspect.getclosurevars(item)
         for names in (scope.nonlocals, scope.globals):
             for name in sorted(names):
@@ -149,10 +149,13 @@ def _plain_name(function: types.FunctionType) -> str:
     return function.__qualname__.split("<locals>")[-1]
 
 
-def _code_pieces(code: types.CodeType) -> Iterator[str]:
+def _code_pieces(code: types.CodeType, docstring: str | None = None) -> Iterator[str]:
     yield code.co_code.hex()
     yield repr((code.co_names, code.co_varnames, code.co_freevars, code.co_cellvars))
-    for constant in code.co_consts:
+    constants = code.co_consts
+    if docstring is not None and constants[:1] == (docstring,):
+        constants = (None, *constants[1:])  # as without a docstring, which changes nothing that is computed
+    for constant in constants:
         if isinstance(constant, types.CodeType):
             yield from _code_pieces(constant)
         else:

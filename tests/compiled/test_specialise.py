@@ -68,6 +68,17 @@ def test_fingerprint_sees_every_change(first, second):
     assert prints[0] == prints[2]
 
 
+@pytest.mark.parametrize("other", ["f", "g"])
+def test_fingerprint_does_not_depend_on_docstrings(other):
+    prints = []
+    for docstring in ("Double it.", "Return twice the number."):
+        scope = {"__name__": "plugin"}
+        text = {"f": "One.", "g": "Two.", other: docstring}
+        exec(f"def g(x):\n  '{text['g']}'\n  return x\ndef f(x):\n  '{text['f']}'\n  return 2 * g(x)", scope)
+        prints.append(fingerprint(scope["f"]))
+    assert prints[0] == prints[1]
+
+
 PROGRAM = """
 import numpy as np
 import module
