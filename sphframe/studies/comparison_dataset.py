@@ -89,9 +89,9 @@ def comparison_dataset(
 
 
 def _numbers(run: xr.Dataset) -> dict[str, Any]:
-    """Return what the dataset holds of one run, NaN for what the run does not know."""
-    known = summary(run)
-    numbers: dict[str, Any] = {name: known.get(name, math.nan) for name in _NUMBERS}
+    """Return what the dataset holds of one run, NaN for what is not known."""
+    known = {name: value for name, value in summary(run).items() if value is not None}
+    numbers: dict[str, Any] = {name: float(known.get(name, math.nan)) for name in _NUMBERS if name != "completed"}
     numbers["cost"] = 1e6 * numbers["wall_clock"] / (numbers["steps"] * numbers["particles"])
     numbers["fallback"] = fallback_share(run)
     numbers["completed"] = np.int8(run.attrs["completed"] == "yes")
