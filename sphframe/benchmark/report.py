@@ -17,7 +17,7 @@ from sphframe.benchmark.steps import State, StepCost, measure_steps
 from sphframe.benchmark.timing import Spread
 from sphframe.errors import InputError
 
-__all__ = ["SECTIONS", "Report", "bench", "check_request"]
+__all__ = ["SECTIONS", "BenchmarkReport", "bench", "check_request"]
 
 numba: Any = typed_numba  # its settings have no types
 
@@ -34,7 +34,7 @@ _REPEATS = 7
 
 
 @dataclass(frozen=True)
-class Report:
+class BenchmarkReport:
     """All measurements, with the machine and the request."""
 
     machine: dict[str, str]
@@ -96,7 +96,7 @@ def bench(
     *,
     repeats: int = _REPEATS,
     tell: Callable[[str, float | None], None] = lambda text, part: None,
-) -> Report:
+) -> BenchmarkReport:
     """Measure the speed, memory and start-up of sphframe on this machine.
 
     Parameters
@@ -135,4 +135,4 @@ def bench(
         start_up = measure_start_up(repeats, tell) if "start-up" in wanted else None
     finally:
         numba.set_num_threads(before)
-    return Report(_machine(), tuple(particles), tuple(counts), peak, steps, methods, memory, start_up)
+    return BenchmarkReport(_machine(), tuple(particles), tuple(counts), peak, steps, methods, memory, start_up)

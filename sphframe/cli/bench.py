@@ -10,7 +10,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from sphframe.benchmark import Report, bench, check_request
+from sphframe.benchmark import BenchmarkReport, bench, check_request
 from sphframe.benchmark.stopwatch import PARTS
 from sphframe.benchmark.timing import Spread
 from sphframe.cli.run import console_log
@@ -75,7 +75,7 @@ def _shown_progress() -> Iterator[Callable[[str, float | None], None]]:
     yield tell
 
 
-def _tables(report: Report) -> Iterator[Table]:
+def _tables(report: BenchmarkReport) -> Iterator[Table]:
     machine = Table(box=None, show_header=False, pad_edge=False)
     for name, value in report.machine.items():
         machine.add_row(name, value)
@@ -94,7 +94,7 @@ def _tables(report: Report) -> Iterator[Table]:
         yield _start_up(report)
 
 
-def _steps(report: Report) -> Table:
+def _steps(report: BenchmarkReport) -> Table:
     parts = (*PARTS, "output")
     table = _table(
         "Dam break: median (lowest-highest) of a step with its share of lists and output;"
@@ -112,7 +112,7 @@ def _steps(report: Report) -> Table:
     return table
 
 
-def _single_parts(report: Report) -> Table:
+def _single_parts(report: BenchmarkReport) -> Table:
     table = _table(
         "Single parts, ms: all rates once with their share of lists, and the bare reference loops, alternately",
         *("flow", "particles", "threads", "evaluation", "bare gradient", "bare rates", "evaluation / bare"),
@@ -130,7 +130,7 @@ def _single_parts(report: Report) -> Table:
     return table
 
 
-def _methods(report: Report) -> Table:
+def _methods(report: BenchmarkReport) -> Table:
     table = _table(
         "Interpolation methods, dam break at rest, one thread, processor time",
         *("method", "particles", "wet points", "neighbours", "us per point", "filling, ms", "step, ms", "boundary, %"),
@@ -143,7 +143,7 @@ def _methods(report: Report) -> Table:
     return table
 
 
-def _memory(report: Report) -> Table:
+def _memory(report: BenchmarkReport) -> Table:
     names = list(report.memory[0].arrays)
     table = _table("Memory, bytes per particle", "dimension", "particles", *names, "all arrays", "resident growth")
     for cost in report.memory:
@@ -155,7 +155,7 @@ def _memory(report: Report) -> Table:
     return table
 
 
-def _start_up(report: Report) -> Table:
+def _start_up(report: BenchmarkReport) -> Table:
     found = report.start_up
     assert found is not None
     table = _table("Start-up, s, fresh processes", "what", "time")

@@ -13,7 +13,7 @@ from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
 from sphframe.physics import LoopParameters, invert_pressure
 from sphframe.simulation.components import Components
-from sphframe.simulation.rest_state import rest_pressure
+from sphframe.simulation.rest_state import pressure_at_depth
 from sphframe.simulation.system import FluidSystem
 
 __all__ = ["initial_system", "loop_parameters"]
@@ -77,7 +77,7 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
         pressure = scene.initial_pressure(position)
     else:
         depth = max(region.upper[-1] for region in scene.fluid) - position[:, -1]
-        pressure = rest_pressure(
+        pressure = pressure_at_depth(
             depth, density, parameters.reference_density, parameters.sound_speed, parameters.gravity
         )
     rows = _initial_rows(position, volumes, pressure, boundary.position, spacing, components, parameters)

@@ -5,12 +5,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["rest_pressure"]
+__all__ = ["pressure_at_depth"]
 
 Array = NDArray[np.float64]
 
 
-def rest_pressure(depth: Array, density: Any, reference_density: float, sound_speed: float, gravity: float) -> Array:
+def pressure_at_depth(
+    depth: Array, density: Any, reference_density: float, sound_speed: float, gravity: float
+) -> Array:
     """Return the pressure (Pa) at ``depth`` (m) below the surface at rest, from dp/ddepth = rho(p) g and p(0) = 0.
 
     For the linear equation of state this is rho0 c0^2 (exp(g depth / c0^2) - 1). ``density`` is the inverse equation

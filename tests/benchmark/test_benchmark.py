@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from sphframe import Simulation
-from sphframe.benchmark import SECTIONS, Report, bench, check_request, methods, start_up, steps
+from sphframe.benchmark import SECTIONS, BenchmarkReport, bench, check_request, methods, start_up, steps
 from sphframe.benchmark.flow import DEVELOPED, dam_break, run_to_developed_flow
 from sphframe.benchmark.fresh import Fresh, run_fresh
 from sphframe.benchmark.memory import array_bytes, measure_here
@@ -26,7 +26,7 @@ TINY = 300
 
 
 @pytest.fixture(scope="module")
-def report() -> Report:
+def report() -> BenchmarkReport:
     return bench([TINY], [1], ["rest"], repeats=3)
 
 
@@ -148,7 +148,7 @@ def test_the_bare_loops_compute_what_the_solver_computes() -> None:
 # the measurements
 
 
-def test_the_parts_of_a_step_add_up(report: Report) -> None:
+def test_the_parts_of_a_step_add_up(report: BenchmarkReport) -> None:
     (cost,) = report.steps
     assert set(cost.parts) == {*PARTS, "output"}
     for k, whole in enumerate(cost.whole.samples):
@@ -161,7 +161,7 @@ def test_the_parts_of_a_step_add_up(report: Report) -> None:
         assert part.minimum > 0.0 or name == "neighbour list"  # lists may remain valid for a whole window
 
 
-def test_the_cost_of_output_per_step_follows_from_its_intervals(report: Report) -> None:
+def test_the_cost_of_output_per_step_follows_from_its_intervals(report: BenchmarkReport) -> None:
     (cost,) = report.steps
     case = dam_break(TINY, 2)
     for k, output in enumerate(cost.parts["output"].samples):
@@ -176,7 +176,7 @@ def test_all_windows_make_the_same_steps(monkeypatch: pytest.MonkeyPatch) -> Non
     assert first.parts["neighbour list"].minimum > 0.0
 
 
-def test_a_report_is_json(report: Report) -> None:
+def test_a_report_is_json(report: BenchmarkReport) -> None:
     data = json.loads(json.dumps(report.as_data()))
     assert data["format"] == 1
     assert set(data) == {"format", "machine", "particles", "threads", "peak", "steps", "methods", "memory", "start_up"}

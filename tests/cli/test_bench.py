@@ -10,7 +10,7 @@ from sphframe.benchmark import bench as benchmark
 from sphframe.benchmark.memory import MemoryCost
 from sphframe.benchmark.methods import MethodCost
 from sphframe.benchmark.peak import Peak
-from sphframe.benchmark.report import Report
+from sphframe.benchmark.report import BenchmarkReport
 from sphframe.benchmark.start_up import StartUp
 from sphframe.benchmark.timing import Spread
 from sphframe.cli import bench as command
@@ -34,7 +34,7 @@ def test_tables_and_json_say_the_same(tmp_path: Path) -> None:
 
 def test_every_table_is_printed(monkeypatch: pytest.MonkeyPatch) -> None:
     two = Spread((0.25, 0.75))
-    whole = Report(
+    whole = BenchmarkReport(
         {"processor": "abacus"},
         (300,),
         (1, 2),

@@ -10,7 +10,7 @@ from scipy.signal import find_peaks
 import sphframe
 from sphframe.cases import Custom, load_case
 from sphframe.simulation import Simulation
-from sphframe.simulation.rest_state import rest_pressure
+from sphframe.simulation.rest_state import pressure_at_depth
 
 SMALL = {"particle_spacing": 0.03, "until": 0.2}
 
@@ -26,7 +26,7 @@ def advance_to(simulation, time):
 
 def test_rest_pressure_is_the_closed_form_of_the_linear_equation_of_state():
     depth = np.linspace(-0.1, 0.3, 50)
-    pressure = rest_pressure(depth, lambda p, rho0, c0: rho0 + p / c0**2, 1000.0, 20.0, 9.81)
+    pressure = pressure_at_depth(depth, lambda p, rho0, c0: rho0 + p / c0**2, 1000.0, 20.0, 9.81)
     expected = np.where(depth > 0, 1000.0 * 400.0 * np.expm1(9.81 * depth / 400.0), 0.0)
     np.testing.assert_allclose(pressure, expected, rtol=1e-8, atol=1e-6)
 
@@ -37,7 +37,7 @@ def test_still_water_stays_still(integrator):
     advance_to(simulation, 0.2)
     fields = simulation.fields()
     assert np.abs(fields.velocity).max() < 0.02
-    expected = rest_pressure(
+    expected = pressure_at_depth(
         0.3 - fields.position[:, 1], lambda p, r, c: r + p / c**2, 1000.0, simulation.sound_speed, 9.81
     )
     assert np.sqrt(np.mean((fields.pressure - expected) ** 2)) < 0.02 * 2943.0
