@@ -62,6 +62,8 @@ class CostTask(Task):
 
     def perform(self, path: Path, threads: int, on_part: PartListener) -> None:
         """Measure the times and write them."""
+        import dask
+
         first = Simulation(self.case(), threads=1)
         warm_up(first)
         while first.time < self.after:
@@ -69,7 +71,8 @@ class CostTask(Task):
             on_part(0.5 * first.time / self.after)
         cases = {label: self._case_of(label) for label in self.methods}
         side = side_by_side(cases, first.state(), self.repeats, lambda part: on_part(0.5 + 0.5 * part))
-        _dataset(side).assign_attrs(busy=side.busy).to_netcdf(path, engine="netcdf4")
+        with dask.config.set(scheduler="synchronous"):  # else xarray asks the cluster for a lock
+            _dataset(side).assign_attrs(busy=side.busy).to_netcdf(path, engine="netcdf4")
 
 
 def _dataset(side: Side) -> xr.Dataset:
