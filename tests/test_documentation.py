@@ -35,6 +35,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "module",
     ["sphframe", "sphframe.analysis", "sphframe.testing", "sphframe.studies", "sphframe.interfaces"],
@@ -47,6 +48,7 @@ def test_every_public_name_is_documented(site: Path, module: str) -> None:
     assert not missing
 
 
+@pytest.mark.slow
 def test_internal_links_lead_somewhere(site: Path) -> None:
     pages = {page.relative_to(site).as_posix(): page.read_text(encoding="utf-8") for page in site.rglob("*.html")}
     for name, text in pages.items():
@@ -103,6 +105,7 @@ def rows(page: str, count: int) -> dict[str, list[str]]:
     return {row[0].strip("`"): row[1:] for row in cells if len(row) == count}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", METHODS)
 def test_every_method_has_a_page_with_its_equation_and_source(site: Path, name: str) -> None:
     page = (site / "theory" / f"{name}.html").read_text(encoding="utf-8")
