@@ -1,4 +1,5 @@
 import importlib.util
+import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Mapping
@@ -12,6 +13,9 @@ from hypothesis import HealthCheck, settings
 from sphframe import registry
 
 Install = Callable[..., Path]
+
+# threads that wait give up their core: test processes run side by side, and would else keep each other waiting
+os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
 
 # no test depends on speed: other processes may keep all cores busy
 settings.register_profile("any-speed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
