@@ -1,5 +1,7 @@
 """``compare`` makes one dataset over method and resolution."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -81,3 +83,12 @@ def test_wrong_input_is_refused_before_anything_runs(
     assert result.exit_code == 2
     assert message in result.stderr
     assert not list(tmp_path.rglob("*.nc"))
+
+
+def test_the_command_works_in_a_new_process(tmp_path: Path) -> None:
+    """Where nothing has imported dask's parts before; their order of import once mattered."""
+    sizes = ["--set", "particle_spacing=0.06", "--set", "until=0.01"]
+    command = ["compare", "hydrostatic-tank", "--interpolators", "shepard", *sizes, "--output", str(tmp_path)]
+    done = subprocess.run([sys.executable, "-m", "sphframe", *command], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "comparison.nc").exists()
