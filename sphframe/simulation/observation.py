@@ -41,9 +41,9 @@ class Observation:
         self.smoothing_length = self.parameters.smoothing_length
         self.particle_count = system.fluid_count
         self.ghost_count = self.boundary.count
-        lower, upper = (np.array(corner, dtype=np.float64) for corner in scene.domain)
+        self._lower, self._upper = (np.array(corner, dtype=np.float64) for corner in scene.domain)
         self._probes = PressureProbes(scene.probes, case.dimension)
-        self._gauges = Gauges(scene.gauges, lower, upper, 0.25 * case.particle_spacing)
+        self._gauges = Gauges(scene.gauges, self._lower, self._upper, 0.25 * case.particle_spacing)
         self._panels = wall_panels(scene.walls, case.particle_spacing)
         self._sample: Callable[..., None] = specialise(sample_points, components.parts)
 

@@ -56,7 +56,6 @@ class Simulation(Observation):
             components = Components.of_case(case)
             system = initial_system(case, scene, components, loop_parameters(case, scene, components))
         super().__init__(case, scene, components, system)
-        self._lower, self._upper = (np.array(corner, dtype=np.float64) for corner in scene.domain)
         self.initial_energy = sum(self.energies().values())
         self.densities_outside = 0
         self._motion = LargestMotion(0.0, 0.0)
