@@ -6,20 +6,6 @@ Every error is a :class:`SphframeError`. The command line prints its message wit
 
 from typing import ClassVar
 
-__all__ = [
-    "ApiVersionError",
-    "BrokenPluginError",
-    "ClashingPluginError",
-    "InputError",
-    "OutputError",
-    "PluginError",
-    "PluginWarning",
-    "ResumeWarning",
-    "SimulationError",
-    "SphframeError",
-    "UnknownComponentError",
-]
-
 
 class SphframeError(Exception):
     """Base class of all errors that sphframe raises on purpose."""

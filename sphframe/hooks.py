@@ -24,8 +24,6 @@ from sphframe.errors import PluginError, PluginWarning
 from sphframe.interfaces import RunView
 from sphframe.registry import Entry, available, load
 
-__all__ = ["hook_manager", "hookimpl", "hookspec"]
-
 hookspec = pluggy.HookspecMarker("sphframe")
 hookimpl = pluggy.HookimplMarker("sphframe")
 """marks a function as a listener to the event of its name; the function may omit arguments that it does not need"""

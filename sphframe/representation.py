@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from html import escape
 
-__all__ = ["html_table"]
-
 
 def html_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[object]], *, about: str = "") -> str:
     """Return an HTML table under its ``title`` and a line ``about`` it.

@@ -37,8 +37,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "module",
-    ["sphframe", "sphframe.analysis", "sphframe.testing", "sphframe.studies", "sphframe.interfaces"],
+    "module", ["sphframe", "sphframe.analysis", "sphframe.testing", "sphframe.studies", "sphframe.interfaces"]
 )
 def test_every_public_name_is_documented(site: Path, module: str) -> None:
     page = (site / "api.html").read_text(encoding="utf-8")

@@ -9,8 +9,6 @@ from sphframe.analysis import fields, plots, probes, scales
 from sphframe.analysis.series import series_error
 from sphframe.analysis.summary import summary
 
-__all__ = ["SphAccessor"]
-
 
 @xr.register_dataset_accessor("sph")  # type: ignore[no-untyped-call]
 class SphAccessor:

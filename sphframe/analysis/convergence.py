@@ -1,14 +1,13 @@
 """Analysis: orders of convergence."""
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from sphframe.arrays import Array
 from sphframe.errors import InputError
 
-__all__ = ["convergence_order", "convergence_orders"]
 
-
-def convergence_orders(spacings: ArrayLike, errors: ArrayLike) -> NDArray[np.float64]:
+def convergence_orders(spacings: ArrayLike, errors: ArrayLike) -> Array:
     """Observed order between each spacing and the next, log(e1/e2) / log(dx1/dx2), shape (n - 1,).
 
     >>> convergence_orders([0.04, 0.02, 0.01], [1.6e-3, 4e-4, 2e-4]).round(12).tolist()
@@ -32,7 +31,7 @@ def convergence_order(spacings: ArrayLike, errors: ArrayLike) -> float:
     return float(np.polyfit(np.log(dx), np.log(e), 1)[0])
 
 
-def _checked(spacings: ArrayLike, errors: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _checked(spacings: ArrayLike, errors: ArrayLike) -> tuple[Array, Array]:
     dx, e = np.asarray(spacings, dtype=np.float64), np.asarray(errors, dtype=np.float64)
     if dx.shape != e.shape or dx.ndim != 1 or len(np.unique(dx)) != len(dx) or len(dx) < 2:
         raise InputError(f"give one error for each of at least two different spacings, not {dx} and {e}")

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from sphframe.analysis.fields import free_surface
 from sphframe.analysis.scales import case_of, pressure_scale, time_scale
+from sphframe.arrays import Array
 from sphframe.errors import InputError
 
 if TYPE_CHECKING:
@@ -19,26 +19,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import FigureBase
     from matplotlib.lines import Line2D
 
-__all__ = [
-    "FIELDS",
-    "Field",
-    "colour_limits",
-    "draw_colour_bar",
-    "draw_free_surface",
-    "draw_particles",
-    "draw_probes",
-    "draw_walls",
-    "field_to_draw",
-    "move_walls",
-    "run_title",
-    "shown_particles",
-    "time_label",
-    "vertical_axis",
-    "view_of",
-    "walls_at",
-]
-
-Array = NDArray[np.float64]
 View = tuple[tuple[float, float], tuple[float, float]]
 
 _WALL_COLOUR = "#3b3b3b"

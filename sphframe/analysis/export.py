@@ -11,16 +11,14 @@ from xml.etree import ElementTree
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from sphframe.analysis.drawing import walls_at
 from sphframe.analysis.fields import particles_at
+from sphframe.arrays import Array
 from sphframe.errors import InputError, OutputError
 
 if TYPE_CHECKING:
     import pyvista
-
-__all__ = ["FORMATS", "export_csv", "export_run", "vtk_parts"]
 
 FORMATS = ("vtkhdf", "pvd", "csv")
 
@@ -154,6 +152,6 @@ def _write_pvd(path: Path, files: list[tuple[float, Path]]) -> Path:
     return path
 
 
-def _in_space(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+def _in_space(vectors: Array) -> Array:
     """Vectors (n, dim) with a third component, zero in 2-D."""
     return np.pad(vectors, ((0, 0), (0, 3 - vectors.shape[1])))

@@ -2,14 +2,10 @@
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from sphframe.arrays import Array
 from sphframe.errors import InputError
-
-__all__ = ["free_surface", "particles_at", "to_grid"]
-
-Array = NDArray[np.float64]
 
 
 def particles_at(dataset: xr.Dataset, time: float | None = None) -> xr.Dataset:

@@ -9,8 +9,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["figure_class", "new_figure", "save_figure", "tidy"]
-
 
 def figure_class() -> type["Figure"]:
     """Return matplotlib's figure class, which opens no window.

@@ -38,8 +38,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
 
-__all__ = ["animate_run", "film_frames"]
-
 _LEVELS = 64
 _DOTS_PER_INCH = 100.0
 _CODECS: dict[str, dict[str, Any]] = {

@@ -18,8 +18,6 @@ from sphframe.analysis.summary import concerns
 from sphframe.errors import SphframeError
 from sphframe.output import open_dataset
 
-__all__ = ["LiveRun", "Look"]
-
 _SHARE = 0.1  # largest share of the time that is spent on drawing, as the run needs the cores
 _SILENCE = 60.0  # s without writing after which a run, which writes every second, is said to be silent
 

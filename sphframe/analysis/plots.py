@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["draw_histories", "plot_run"]
-
 _WIDTH = 10.0
 """of a picture, inches"""
 

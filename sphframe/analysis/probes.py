@@ -6,15 +6,9 @@ from numpy.typing import ArrayLike
 
 from sphframe.errors import InputError
 
-__all__ = ["probe_statistics"]
-
 
 def probe_statistics(
-    dataset: xr.Dataset,
-    *,
-    start: float | None = None,
-    stop: float | None = None,
-    expected: ArrayLike | None = None,
+    dataset: xr.Dataset, *, start: float | None = None, stop: float | None = None, expected: ArrayLike | None = None
 ) -> xr.Dataset:
     """Mean, standard deviation, smallest and largest pressure of each probe between two times.
 

@@ -9,8 +9,6 @@ import xarray as xr
 
 from sphframe.errors import InputError
 
-__all__ = ["read_reference_series", "references_for"]
-
 
 def read_reference_series(folder: str | os.PathLike[str], name: str, column: int | str = 1) -> xr.DataArray:
     """Read the series ``folder/name.csv``.

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-__all__ = ["case_of", "pressure_scale", "rest_pressure", "time_scale"]
+from sphframe.arrays import Array
 
 
 def pressure_scale(dataset: xr.Dataset) -> float:
@@ -22,7 +22,7 @@ def time_scale(dataset: xr.Dataset) -> float:
     return math.sqrt(dataset.attrs["depth"] / gravity) if gravity > 0.0 else 1.0
 
 
-def rest_pressure(dataset: xr.Dataset, height: ArrayLike) -> NDArray[np.float64]:
+def rest_pressure(dataset: xr.Dataset, height: ArrayLike) -> Array:
     """Pressure at rest in Pa at ``height`` (m) above the bed: rho0 c0^2 (exp(g (H - y)/c0^2) - 1), at least 0.
 
     It is exact for the linear equation of state. For Tait's equation the relative error is of the

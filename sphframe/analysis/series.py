@@ -6,8 +6,6 @@ from numpy.typing import ArrayLike
 
 from sphframe.errors import InputError
 
-__all__ = ["running_mean", "series_error"]
-
 
 def running_mean(times: ArrayLike, values: ArrayLike, window: float, step: float) -> xr.DataArray:
     """Return the mean of a series over a window around each of evenly spaced times; it removes acoustic waves.

@@ -9,8 +9,6 @@ from numpy.typing import ArrayLike
 from sphframe.analysis.scales import case_of, pressure_scale, time_scale
 from sphframe.interfaces import Status
 
-__all__ = ["concerns", "front_arrival", "summary"]
-
 
 def summary(dataset: xr.Dataset) -> dict[str, Any]:
     """Return the key figures of a run as plain numbers and texts, fit for a table or JSON.

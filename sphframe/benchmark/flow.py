@@ -9,8 +9,6 @@ from sphframe.cases import CaseWarning, load_case
 from sphframe.cases.dam_break import DamBreak
 from sphframe.simulation import Simulation
 
-__all__ = ["DEVELOPED", "dam_break", "run_to_developed_flow", "warm_up"]
-
 DEVELOPED = 5.0
 """t sqrt(g/H) from which the flow counts as developed: the water has run up the wall and falls back"""
 _WARM_UP = 3

@@ -10,8 +10,6 @@ from typing import Any, NamedTuple
 
 from sphframe.errors import SimulationError
 
-__all__ = ["Fresh", "run_fresh"]
-
 
 class Fresh(NamedTuple):
     """The JSON value that a new process has printed, and the time from its start to its end, s."""

@@ -6,8 +6,6 @@ from pathlib import Path
 
 from sphframe.output.provenance import software
 
-__all__ = ["machine"]
-
 
 def machine() -> dict[str, str]:
     """Return processor, cores, system and versions."""

@@ -13,8 +13,6 @@ from sphframe.benchmark.flow import dam_break, warm_up
 from sphframe.benchmark.fresh import run_fresh
 from sphframe.simulation import Simulation
 
-__all__ = ["MemoryCost", "array_bytes", "measure_memory"]
-
 _OWNERS = ("lists", "boundary")
 """parts of the system that are counted separately"""
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from sphframe.arrays import Array
 from sphframe.benchmark.flow import dam_break, warm_up
 from sphframe.benchmark.stopwatch import Stopwatch
 from sphframe.benchmark.timing import Spread, loops_for, seconds
@@ -16,8 +16,6 @@ from sphframe.cases import Case
 from sphframe.interfaces import Status
 from sphframe.registry import check
 from sphframe.simulation import Simulation
-
-__all__ = ["MethodCost", "Side", "measure_methods", "side_by_side", "wet_points"]
 
 _STEPS = 8
 """steps that are timed together, so that neighbour searches have their average share"""
@@ -33,8 +31,8 @@ class Side:
     """
 
     simulations: Mapping[str, Simulation]
-    fill: NDArray[np.float64]
-    step: NDArray[np.float64]
+    fill: Array
+    step: Array
     busy: float
 
 

@@ -9,8 +9,6 @@ import numpy as np
 from sphframe.benchmark.timing import Spread
 from sphframe.compiled import fma, local_array
 
-__all__ = ["Peak", "measure_peak"]
-
 _CHAINS = 128
 """numbers that are multiplied and added to independently: enough to fill all pipelines"""
 _ROUNDS = 1_000_000

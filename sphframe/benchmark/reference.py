@@ -12,12 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from sphframe.arrays import Array
 from sphframe.compiled import fast_exp
 from sphframe.simulation import Simulation
-
-__all__ = ["BareLoops"]
-
-Array = NDArray[np.float64]
 
 
 class BareLoops:

@@ -17,17 +17,11 @@ from sphframe.benchmark.steps import State, StepCost, measure_steps
 from sphframe.benchmark.timing import Spread
 from sphframe.errors import InputError
 
-__all__ = ["SECTIONS", "BenchmarkReport", "bench", "check_request"]
-
 numba: Any = typed_numba  # its settings have no types
 
 SECTIONS = ("peak", "rest", "developed", "3d", "methods", "memory", "start-up")
 """sections that can be chosen"""
-_FLOWS: tuple[tuple[str, int, State], ...] = (
-    ("rest", 2, "rest"),
-    ("developed", 2, "developed"),
-    ("3d", 3, "rest"),
-)
+_FLOWS: tuple[tuple[str, int, State], ...] = (("rest", 2, "rest"), ("developed", 2, "developed"), ("3d", 3, "rest"))
 FORMAT = 1
 _FEWEST, _MOST_DEVELOPED = 100, 50_000
 _REPEATS = 7

@@ -8,8 +8,6 @@ from typing import Any
 from sphframe.benchmark.fresh import Fresh, run_fresh
 from sphframe.benchmark.timing import Spread
 
-__all__ = ["StartUp", "measure_start_up"]
-
 _IMPORTS = """
 import json, time
 began = time.perf_counter()

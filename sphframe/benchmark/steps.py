@@ -16,8 +16,6 @@ from sphframe.output import NetCDFWriter
 from sphframe.simulation import Simulation
 from sphframe.simulation.guards import check_traits
 
-__all__ = ["State", "StepCost", "measure_steps"]
-
 State = Literal["rest", "developed"]
 
 _WINDOW = 0.4

@@ -7,8 +7,6 @@ from typing import Any
 
 from sphframe.simulation import Simulation
 
-__all__ = ["PARTS", "Stopwatch", "watch_steps"]
-
 PARTS = ("neighbour list", "boundary", "continuity", "momentum and gradient", "integration")
 """parts of a step; the density gradient is computed together with the accelerations; integration is all the rest"""
 

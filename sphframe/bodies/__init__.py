@@ -8,12 +8,4 @@ from sphframe.bodies.regular_wave_paddle import RegularWavePaddle
 from sphframe.bodies.solitary_wave_paddle import SolitaryWavePaddle
 from sphframe.bodies.spring_mass import SpringMass
 
-__all__ = [
-    "DisplacementSeries",
-    "Fixed",
-    "Free",
-    "Prescribed",
-    "RegularWavePaddle",
-    "SolitaryWavePaddle",
-    "SpringMass",
-]
+__all__ = ["DisplacementSeries", "Fixed", "Free", "Prescribed", "RegularWavePaddle", "SolitaryWavePaddle", "SpringMass"]

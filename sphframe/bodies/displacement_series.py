@@ -7,10 +7,9 @@ from typing import final
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
+from sphframe.arrays import Array
 from sphframe.errors import InputError
-from sphframe.interfaces.rigid_body import Array, Motion, RigidBody
-
-__all__ = ["DisplacementSeries"]
+from sphframe.interfaces.rigid_body import Motion, RigidBody
 
 
 @final

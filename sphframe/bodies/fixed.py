@@ -4,9 +4,8 @@ from typing import final
 
 import numpy as np
 
-from sphframe.interfaces.rigid_body import Array, Motion, RigidBody
-
-__all__ = ["Fixed"]
+from sphframe.arrays import Array
+from sphframe.interfaces.rigid_body import Motion, RigidBody
 
 
 @final

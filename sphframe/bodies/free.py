@@ -5,9 +5,8 @@ from typing import ClassVar, final
 
 import numpy as np
 
-from sphframe.interfaces.rigid_body import Array, Motion, RigidBody
-
-__all__ = ["Free"]
+from sphframe.arrays import Array
+from sphframe.interfaces.rigid_body import Motion, RigidBody
 
 
 @final

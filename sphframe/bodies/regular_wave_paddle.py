@@ -7,9 +7,8 @@ from typing import final
 import numpy as np
 from scipy.optimize import brentq
 
-from sphframe.interfaces.rigid_body import Array, Motion, RigidBody
-
-__all__ = ["RegularWavePaddle"]
+from sphframe.arrays import Array
+from sphframe.interfaces.rigid_body import Motion, RigidBody
 
 
 @final

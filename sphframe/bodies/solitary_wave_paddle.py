@@ -6,9 +6,8 @@ from typing import Literal, final
 
 import numpy as np
 
-from sphframe.interfaces.rigid_body import Array, Motion, RigidBody
-
-__all__ = ["SolitaryWavePaddle"]
+from sphframe.arrays import Array
+from sphframe.interfaces.rigid_body import Motion, RigidBody
 
 _LEAD = 3.8
 """phase at the start: the wave's elevation at the paddle is then A sech^2(3.8) = 0.002 A"""

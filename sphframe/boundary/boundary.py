@@ -3,16 +3,12 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import Array, IntArray
 from sphframe.boundary.corners import Corners
 from sphframe.boundary.movement import move_ghosts
 from sphframe.geometry import BoxWall, PolygonWall, wall_ghosts
 from sphframe.interfaces import EvaluationPoint, Motion, RigidBody, Status
-
-__all__ = ["Boundary"]
-
-Array = NDArray[np.float64]
 
 _STATE = ("position", "mirror", "reflection", "velocity", "acceleration", "driving", "statuses")
 
@@ -94,7 +90,7 @@ class Boundary:
         self.driving += driving_force
         rows[:, : self.dim] = self.position
 
-    def corner_shares(self, motions: Sequence[Motion]) -> tuple[NDArray[np.int64], Array]:
+    def corner_shares(self, motions: Sequence[Motion]) -> tuple[IntArray, Array]:
         """Other wall (g,) that takes part of each ghost's force, or -1, and its normal (g, dim)."""
         return self._corners.shares(self.position, self.wall, motions)
 

@@ -35,8 +35,6 @@ import numba
 from sphframe.compiled import squared_distance
 from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, SUPPORT
 
-__all__ = ["make_conjugate"]
-
 CANCELLED = 0.1
 """|a| over the sum of |V_j grad W| below which there is no correction; near one plane face it is at least dx/(2 R)"""
 

@@ -18,8 +18,6 @@ import numba
 
 from sphframe.compiled import LANES, local_array, squared_distance
 
-__all__ = ["put_back"]
-
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
 def put_back(  # type: ignore[no-untyped-def]

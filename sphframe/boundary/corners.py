@@ -11,14 +11,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import Array, IntArray
 from sphframe.geometry import BoxWall, PolygonWall, directions_to_world, to_world
 from sphframe.interfaces import Motion
-
-__all__ = ["Corners"]
-
-Array = NDArray[np.float64]
 
 
 class _End(NamedTuple):
@@ -34,7 +30,7 @@ class Corners:
     """The open ends of polygonal ``walls``, carried by the bodies ``wall_body`` (walls,) about ``centres``."""
 
     def __init__(
-        self, walls: Sequence[PolygonWall | BoxWall], wall_body: NDArray[np.int64], centres: Array, reach: float
+        self, walls: Sequence[PolygonWall | BoxWall], wall_body: IntArray, centres: Array, reach: float
     ) -> None:
         self._wall_body, self._centres, self._reach = wall_body, centres, reach
         self._ends: list[_End] = []
@@ -45,9 +41,7 @@ class Corners:
                     along = edge / np.linalg.norm(edge)
                     self._ends.append(_End(index, point, sense * along, np.array([along[1], -along[0]])))
 
-    def shares(
-        self, position: Array, wall: NDArray[np.int64], motions: Sequence[Motion]
-    ) -> tuple[NDArray[np.int64], Array]:
+    def shares(self, position: Array, wall: IntArray, motions: Sequence[Motion]) -> tuple[IntArray, Array]:
         """Find for each ghost the wall behind whose prolongation it lies at present.
 
         Parameters

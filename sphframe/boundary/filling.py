@@ -3,9 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.conjugate import make_conjugate
 from sphframe.boundary.ghosts import Scratch, fill_ghosts
@@ -13,10 +11,6 @@ from sphframe.compiled import specialise
 from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint
 from sphframe.neighbours import NeighbourLists
 from sphframe.physics import LoopParameters
-
-__all__ = ["Filling"]
-
-Array = NDArray[np.float64]
 
 
 class Filling:

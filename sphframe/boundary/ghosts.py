@@ -36,13 +36,10 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from sphframe.arrays import Array
 from sphframe.compiled import local_array
 from sphframe.compiled.stand_ins import COLUMNS, DENSITY, DIM, FALLBACK, SUPPORT, VALUE, WEIGHTS
 from sphframe.interfaces.traits import DRY, OK
-
-__all__ = ["Scratch", "fill_ghosts"]
-
-Array = NDArray[np.float64]
 
 # parts bound by specialise()
 BALANCED = True

@@ -11,8 +11,6 @@ import math
 
 import numba
 
-__all__ = ["move_ghosts"]
-
 
 @numba.njit(inline="always")
 def _turned(x, y, cos, sin):  # type: ignore[no-untyped-def]

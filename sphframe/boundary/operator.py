@@ -10,10 +10,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 from scipy.spatial import cKDTree
 
+from sphframe.arrays import Array, IntArray
 from sphframe.compiled import specialise
 from sphframe.compiled.stand_ins import DIM, FALLBACK, SUPPORT, VALUE, WEIGHTS
 from sphframe.errors import InputError
@@ -22,10 +23,7 @@ from sphframe.interfaces.traits import DRY, OK
 from sphframe.kernels import compiled_kernel
 from sphframe.registry import create
 
-__all__ = ["ParticleCloud", "operator", "weights_loop"]
-
-Array = NDArray[np.float64]
-Integers = NDArray[np.int64]
+Integers = IntArray
 
 
 @dataclass(frozen=True)

@@ -2,8 +2,6 @@
 
 from sphframe.geometry import BoxRegion, BoxWall
 
-__all__ = ["box_tank", "domain_above", "water_box", "with_width"]
-
 
 def with_width(dimension: int, x: float, width: float, z: float) -> tuple[float, ...]:
     """Return a point: (x, z) in 2-D, (x, width, z) in 3-D; the last coordinate points upwards."""

@@ -13,8 +13,6 @@ from sphframe.cases.scene import Scene
 from sphframe.errors import InputError
 from sphframe.representation import html_table
 
-__all__ = ["Case", "Guards", "Parameter", "parameters_of"]
-
 
 class Guards(BaseModel):
     """What a run does when its state is not physical. NaN and a vanishing time step always stop it."""

@@ -15,8 +15,6 @@ from sphframe.geometry import Region, lattice
 from sphframe.interfaces import Integrator
 from sphframe.registry import COMPONENT_KINDS
 
-__all__ = ["CaseWarning", "check_case"]
-
 _MOST_PARTICLES = 50_000_000
 _MOST_FRAMES = 100_000
 _MOST_SAMPLES = 20_000_000

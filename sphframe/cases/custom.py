@@ -3,16 +3,12 @@
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import Array
 from sphframe.cases.case import Case
 from sphframe.cases.parameters import Component, Derived, quantity, with_default
 from sphframe.cases.scene import Gauge, Probe, Scene
 from sphframe.geometry import Region, Wall
-
-__all__ = ["Custom"]
-
-Array = NDArray[np.float64]
 
 
 class Custom(Case):

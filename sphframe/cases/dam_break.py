@@ -5,18 +5,14 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import Array
 from sphframe.cases.box_tank import box_tank, domain_above, water_box, with_width
 from sphframe.cases.case import Case
 from sphframe.cases.dam_break_series import WaterColumn
 from sphframe.cases.parameters import Derived, quantity, with_default
 from sphframe.cases.scene import Diagnostic, Probe, Scene
 from sphframe.interfaces import Fields
-
-__all__ = ["DamBreak", "connected_extent"]
-
-Array = NDArray[np.float64]
 
 
 class DamBreak(Case):
@@ -54,7 +50,7 @@ class DamBreak(Case):
             "ghost_velocity": "interpolated",
             "frame_interval": 0.02,
             "probe_interval": 0.001,
-        },
+        }
     }
 
     water_height: float = quantity(0.6, "m", "height H of the water column", gt=0)

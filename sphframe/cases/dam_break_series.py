@@ -4,11 +4,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-__all__ = ["WaterColumn"]
-
-Array = NDArray[np.float64]
+from sphframe.arrays import Array
 
 _NEGLIGIBLE = 40.0
 """exp(-40) = 4e-18 is below round-off"""

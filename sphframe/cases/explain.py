@@ -9,8 +9,6 @@ from pydantic import BaseModel, ValidationError
 from sphframe.cases.parameters import unit_of
 from sphframe.registry.nearest import did_you_mean
 
-__all__ = ["explain", "plain"]
-
 _LONGEST = 60
 
 

@@ -8,8 +8,6 @@ from sphframe.cases.parameters import Derived, quantity, with_default
 from sphframe.cases.scene import Gauge, Scene
 from sphframe.geometry import PolygonRegion, PolygonWall
 
-__all__ = ["FloatingBody"]
-
 
 class FloatingBody(Case):
     """A rectangular box floats in the middle of a tank, free to move and to rotate, in two dimensions.

@@ -8,8 +8,6 @@ from sphframe.cases.case import Case
 from sphframe.cases.parameters import Derived, quantity, with_default
 from sphframe.cases.scene import Probe, Scene
 
-__all__ = ["HydrostaticTank"]
-
 
 class HydrostaticTank(Case):
     """Water at rest, 1 m by 0.3 m, section 4.1 of Huang et al. (2019).
@@ -39,7 +37,7 @@ class HydrostaticTank(Case):
             "ghost_velocity": "interpolated",
             "frame_interval": 0.5,
             "probe_interval": 0.01,
-        },
+        }
     }
 
     water_depth: float = quantity(0.3, "m", "depth of the water", gt=0)

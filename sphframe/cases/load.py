@@ -15,8 +15,6 @@ from sphframe.errors import InputError
 from sphframe.registry import is_address, load
 from sphframe.registry.nearest import did_you_mean
 
-__all__ = ["load_case", "read_toml"]
-
 
 def load_case(
     source: str | Path | Case,

@@ -10,8 +10,6 @@ from pydantic_core import PydanticUndefined
 
 from sphframe.registry import create
 
-__all__ = ["Component", "Derived", "quantity", "unit_of", "with_default", "written"]
-
 
 class Component(BaseModel):
     """A component chosen by name, with its options: ``"mls-linear"`` or ``{"name": "sfdi", "form": "printed"}``."""

@@ -4,16 +4,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated
 
-import numpy as np
-from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from sphframe.arrays import Array
 from sphframe.geometry import Region, Wall
 from sphframe.interfaces import Fields, RigidBody
-
-__all__ = ["Diagnostic", "Gauge", "Probe", "Scene"]
-
-Array = NDArray[np.float64]
 
 
 class Probe(BaseModel):

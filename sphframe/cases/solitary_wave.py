@@ -5,19 +5,15 @@ from collections.abc import Callable, Mapping
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
+from sphframe.arrays import Array
 from sphframe.bodies import SolitaryWavePaddle
 from sphframe.cases.case import Case
 from sphframe.cases.parameters import Derived, quantity, with_default
 from sphframe.cases.scene import Diagnostic, Gauge, Probe, Scene
 from sphframe.geometry import PolygonRegion, PolygonWall
 from sphframe.interfaces import Fields, RigidBody
-
-__all__ = ["SolitaryWaveFlume", "run_up_along"]
-
-Array = NDArray[np.float64]
 
 
 class SolitaryWaveFlume(Case):

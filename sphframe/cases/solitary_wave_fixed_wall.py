@@ -9,8 +9,6 @@ from sphframe.cases.scene import Scene
 from sphframe.cases.solitary_wave import SolitaryWaveFlume
 from sphframe.geometry import PolygonWall
 
-__all__ = ["SolitaryWaveFixedWall"]
-
 
 class SolitaryWaveFixedWall(SolitaryWaveFlume):
     """A solitary wave runs against a seawall, vertical or leaning: section 4.3 of Huang et al. (2019).
@@ -46,7 +44,7 @@ class SolitaryWaveFixedWall(SolitaryWaveFlume):
             "hydrostatic_lift": "mirror",
             "ghost_velocity": "interpolated",
             "probe_heights": (0.05, 0.15),
-        },
+        }
     }
 
     wall_angle: float = quantity(

@@ -10,8 +10,6 @@ from sphframe.cases.scene import Scene
 from sphframe.cases.solitary_wave import SolitaryWaveFlume
 from sphframe.geometry import PolygonWall
 
-__all__ = ["SolitaryWaveMovableWall"]
-
 
 class SolitaryWaveMovableWall(SolitaryWaveFlume):
     """A solitary wave pushes a vertical seawall against a spring: section 4.4 of Huang et al. (2019).
@@ -45,7 +43,7 @@ class SolitaryWaveMovableWall(SolitaryWaveFlume):
             "threshold_ratio": 1.1,
             "until": 4.5,
             "probe_interval": 0.002,
-        },
+        }
     }
 
     depth: float = with_default(SolitaryWaveFlume, "depth", 0.2)

@@ -9,8 +9,6 @@ from rich.progress import track
 from sphframe.analysis import animate_run
 from sphframe.output import open_dataset
 
-__all__ = ["animate_command"]
-
 
 def animate_command(path: Path, *, field: str, output: Path | None, frames_per_second: float) -> None:
     """Write a film of a run that is complete or still running."""

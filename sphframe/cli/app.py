@@ -23,8 +23,6 @@ from sphframe.cli.parameters import (
     seconds,
 )
 
-__all__ = ["app", "main"]
-
 WELCOME = """\
 sphframe {version}: a laboratory for wall boundaries in SPH free-surface flow
 
@@ -117,11 +115,7 @@ def _resume(
     from sphframe.cli.resume import resume_command
 
     resume_command(
-        file,
-        threads=threads,
-        trusted=trust,
-        checkpoint_every=checkpoint_every,
-        checkpoint_interval=checkpoint_interval,
+        file, threads=threads, trusted=trust, checkpoint_every=checkpoint_every, checkpoint_interval=checkpoint_interval
     )
 
 
@@ -190,13 +184,7 @@ def _reproduce(
     from sphframe.cli.reproduce import reproduce_command
 
     reproduce_command(
-        study,
-        only=only or [],
-        quick=quick,
-        reference=reference,
-        workers=workers,
-        scheduler=scheduler,
-        output=output,
+        study, only=only or [], quick=quick, reference=reference, workers=workers, scheduler=scheduler, output=output
     )
 
 
@@ -326,14 +314,12 @@ def _bench(
         typer.Option(metavar="N", help="fluid particles; repeatable, or with commas; by default 45000"),
     ] = None,
     threads: Annotated[
-        list[str] | None,
-        typer.Option(metavar="N", help="threads; repeatable, or with commas; by default 1 and 2"),
+        list[str] | None, typer.Option(metavar="N", help="threads; repeatable, or with commas; by default 1 and 2")
     ] = None,
     only: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="SECTION",
-            help="peak, rest, developed, 3d, methods, memory or start-up; repeatable, or with commas",
+            metavar="SECTION", help="peak, rest, developed, 3d, methods, memory or start-up; repeatable, or with commas"
         ),
     ] = None,
 ) -> None:

@@ -16,8 +16,6 @@ from sphframe.benchmark.timing import Spread
 from sphframe.cli.run import console_log
 from sphframe.errors import InputError, OutputError
 
-__all__ = ["bench_command"]
-
 
 def bench_command(
     *, particles: Sequence[str], threads: Sequence[str], only: Sequence[str], json_file: Path | None

@@ -15,8 +15,6 @@ from sphframe.errors import InputError
 from sphframe.studies import compare
 from sphframe.studies.report import shown
 
-__all__ = ["compare_command"]
-
 
 def compare_command(
     case: str,

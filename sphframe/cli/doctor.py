@@ -18,8 +18,6 @@ from rich.text import Text
 import sphframe
 from sphframe.registry import KINDS, check
 
-__all__ = ["doctor_command"]
-
 numba: Any = typed_numba  # the types of its settings and its threading layer are unknown
 _PACKAGES = ("numpy", "scipy", "numba", "llvmlite", "xarray", "netCDF4", "pydantic", "matplotlib")
 

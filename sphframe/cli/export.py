@@ -8,8 +8,6 @@ from rich.progress import track
 from sphframe.analysis import export_run
 from sphframe.output import open_dataset
 
-__all__ = ["export_command"]
-
 
 def export_command(path: Path, *, to: str, output: Path | None) -> None:
     """Write a run for ParaView, or its sampled series as a table."""

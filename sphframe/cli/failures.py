@@ -13,8 +13,6 @@ from typer.core import TyperGroup
 
 from sphframe.errors import SphframeError
 
-__all__ = ["Commands"]
-
 
 @final
 class Commands(TyperGroup):

@@ -6,8 +6,6 @@ from rich.text import Text
 
 from sphframe.registry import KINDS, available
 
-__all__ = ["list_command"]
-
 
 def list_command(kind: str | None) -> None:
     """Print the components of one kind or of all kinds, with the distributions that provide them."""

@@ -7,8 +7,6 @@ from sphframe.cli.plugin_template import LICENCES, plugin_files
 from sphframe.errors import InputError, OutputError
 from sphframe.registry import available
 
-__all__ = ["new_plugin", "new_plugin_command"]
-
 
 def new_plugin_command(name: str, *, folder: Path, licence: str, author: str) -> None:
     """Write a distribution with one interpolation method, and print the next commands."""

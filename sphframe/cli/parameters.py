@@ -5,19 +5,6 @@ from typing import Annotated
 
 import typer
 
-__all__ = [
-    "Assignments",
-    "CheckpointEvery",
-    "CheckpointInterval",
-    "DrawnField",
-    "OutputFile",
-    "Preset",
-    "Scheduler",
-    "Threads",
-    "Workers",
-    "seconds",
-]
-
 
 def seconds(text: str) -> float:
     """Return the number of seconds that ``text`` gives; typer's own message would not say what was expected."""

@@ -6,17 +6,9 @@ from pathlib import Path
 from sphframe.analysis import plot_run, references_for
 from sphframe.output import open_dataset
 
-__all__ = ["plot_command"]
-
 
 def plot_command(
-    path: Path,
-    *,
-    field: str,
-    times: Sequence[float],
-    references: Sequence[Path],
-    surface: bool,
-    output: Path | None,
+    path: Path, *, field: str, times: Sequence[float], references: Sequence[Path], surface: bool, output: Path | None
 ) -> None:
     """Draw a run that is complete or still running."""
     target = output or path.with_suffix(".png")

@@ -6,8 +6,6 @@ import re
 import sphframe
 from sphframe.registry import API_VERSION
 
-__all__ = ["LICENCES", "plugin_files"]
-
 LICENCES = ("BSD-3-Clause", "MIT", "none")
 
 

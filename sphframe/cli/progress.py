@@ -11,8 +11,6 @@ from sphframe.analysis import concerns
 from sphframe.hooks import hookimpl
 from sphframe.interfaces import RunView
 
-__all__ = ["ProgressDisplay"]
-
 _REFRESH = 0.1  # s
 _WINDOW = 100  # refreshes over which rates are taken
 

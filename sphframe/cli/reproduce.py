@@ -10,8 +10,6 @@ from sphframe.cli.studies_progress import shown_progress
 from sphframe.errors import InputError
 from sphframe.studies import installed_study, reproduce
 
-__all__ = ["reproduce_command"]
-
 
 def reproduce_command(
     name: str | None,

@@ -6,8 +6,6 @@ from sphframe.cli.run import console_log, report_run, run_with_progress
 from sphframe.output import CheckpointWriter
 from sphframe.simulation.run import prepare_resume
 
-__all__ = ["resume_command"]
-
 
 def resume_command(
     path: Path, *, threads: int | None, trusted: bool, checkpoint_every: float, checkpoint_interval: float | None

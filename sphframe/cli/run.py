@@ -19,8 +19,6 @@ from sphframe.hooks import hook_manager
 from sphframe.output import CheckpointWriter, NetCDFWriter, open_dataset
 from sphframe.simulation import Simulation
 
-__all__ = ["console_log", "picture_of", "report_run", "run_command", "run_with_progress"]
-
 
 def run_command(
     source: str,

@@ -11,8 +11,6 @@ from rich.text import Text
 from sphframe.cases import Case, load_case, parameters_of, written
 from sphframe.registry import KINDS, available, load
 
-__all__ = ["show_command"]
-
 
 def show_command(name: str, preset: str | None) -> None:
     """Print the parameters of a case, or the options of a component."""

@@ -12,8 +12,6 @@ from rich.progress import Progress as Bar
 from sphframe.studies import Progress
 from sphframe.studies.engine import ProgressListener
 
-__all__ = ["shown_progress"]
-
 _LINE_EVERY = 60.0
 """s between lines about running tasks, where there is no terminal"""
 

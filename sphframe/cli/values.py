@@ -9,8 +9,6 @@ from typing import Any
 from sphframe.errors import InputError
 from sphframe.registry import is_address
 
-__all__ = ["allow_imports_from_here", "read_assignments"]
-
 
 def read_assignments(assignments: Iterable[str], options: Mapping[str, str | None]) -> dict[str, Any]:
     """Return the parameters that ``KEY=VALUE`` texts and options give; an option of None was not given.

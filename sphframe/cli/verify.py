@@ -17,8 +17,6 @@ from sphframe.errors import InputError
 if TYPE_CHECKING:
     from sphframe.testing import Report
 
-__all__ = ["verify", "verify_command"]
-
 _COLUMNS = {
     "sum is one": ("partition_of_unity",),
     "not negative": ("non_negative",),

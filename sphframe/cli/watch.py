@@ -12,8 +12,6 @@ from typing import Any
 from sphframe.analysis.live import LiveRun
 from sphframe.errors import InputError
 
-__all__ = ["WatchServer", "watch_command"]
-
 _HOST = "127.0.0.1"
 
 

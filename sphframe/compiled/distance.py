@@ -2,8 +2,6 @@
 
 import numba
 
-__all__ = ["squared_distance"]
-
 
 @numba.njit(inline="always")
 def squared_distance(a, i, b, j, dim):  # type: ignore[no-untyped-def]

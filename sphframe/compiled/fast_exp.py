@@ -8,8 +8,6 @@ from numpy.polynomial import Chebyshev, Polynomial
 
 from sphframe.compiled.fma import fma
 
-__all__ = ["fast_exp"]
-
 
 def _root_of_exp() -> tuple[float, ...]:
     """Coefficients of a polynomial that is exp(x/32) for -9 <= x <= 0 to 3e-16: its Chebyshev series to degree 8.

@@ -7,8 +7,6 @@ from typing import Any
 from numba import types
 from numba.extending import lower_builtin, type_callable
 
-__all__ = ["fma"]
-
 
 def fma(a: float, b: float, c: float) -> float:
     """Return a b + c, in a compiled function as one instruction that rounds once.

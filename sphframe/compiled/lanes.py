@@ -1,6 +1,4 @@
 """Compiled: the number of particles that a pair loop computes at once."""
 
-__all__ = ["LANES"]
-
 LANES = 8
 """numbers of double precision in the widest vector registers (AVX-512)"""

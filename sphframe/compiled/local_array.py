@@ -9,12 +9,11 @@ from llvmlite import ir
 from numba import types
 from numba.core import cgutils
 from numba.extending import lower_builtin, type_callable
-from numpy.typing import NDArray
 
-__all__ = ["local_array"]
+from sphframe.arrays import Array
 
 
-def local_array(size: int) -> NDArray[np.float64]:
+def local_array(size: int) -> Array:
     """Return an uninitialised array of ``size`` floats that lives until the calling function returns.
 
     In a compiled function the array lies on the stack: its allocation takes no time, threads do not wait for each

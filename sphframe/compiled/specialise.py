@@ -18,8 +18,6 @@ import numba
 import numpy as np
 from numba.core.dispatcher import Dispatcher
 
-__all__ = ["compile_part", "fingerprint", "specialise"]
-
 F = TypeVar("F", bound=Callable[..., Any])
 
 _parts: dict[str, Any] = {}

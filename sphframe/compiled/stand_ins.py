@@ -11,8 +11,6 @@ from sphframe.interfaces.equation_of_state import StateFunction
 from sphframe.interfaces.kernel import ScalarFunction
 from sphframe.particles import Columns
 
-__all__ = ["COLUMNS", "DENSITY", "DIM", "FALLBACK", "GRADIENT", "PRESSURE", "SUPPORT", "VALUE", "WEIGHTS"]
-
 
 def _not_bound(*_: Any) -> NoReturn:
     """Raise: the template was called without ``specialise``."""

@@ -5,8 +5,6 @@ from dataclasses import dataclass
 from sphframe.interfaces import EquationOfState
 from sphframe.interfaces.equation_of_state import StateFunction
 
-__all__ = ["Linear"]
-
 
 def _pressure(density: float, reference_density: float, sound_speed: float) -> float:
     return sound_speed * sound_speed * (density - reference_density)

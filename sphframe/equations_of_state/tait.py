@@ -7,8 +7,6 @@ from sphframe.errors import InputError
 from sphframe.interfaces import EquationOfState
 from sphframe.interfaces.equation_of_state import StateFunction
 
-__all__ = ["Tait"]
-
 
 @dataclass(frozen=True)
 class Tait(EquationOfState):

@@ -13,11 +13,8 @@ In each function, ``motion_position`` (3,) is the body's position in generalised
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-__all__ = ["directions_to_world", "to_body_frame", "to_world"]
-
-Array = NDArray[np.float64]
+from sphframe.arrays import Array
 
 
 def to_world(points: Array, motion_position: Array, centre: Array) -> Array:

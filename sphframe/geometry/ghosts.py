@@ -13,14 +13,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.geometry.walls import TOLERANCE, Wall
-
-__all__ = ["GhostPoints", "wall_ghosts"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -34,7 +30,7 @@ class GhostPoints:
     position: Array
     mirror: Array
     reflection: Array
-    wall: NDArray[np.int64]
+    wall: IntArray
 
 
 def wall_ghosts(walls: tuple[Wall, ...], spacing: float, layers: int) -> GhostPoints:
@@ -62,7 +58,7 @@ def wall_ghosts(walls: tuple[Wall, ...], spacing: float, layers: int) -> GhostPo
     )
 
 
-def _without_duplicates(position: Array, closest: float) -> NDArray[np.bool_]:
+def _without_duplicates(position: Array, closest: float) -> BoolArray:
     keep = np.ones(len(position), dtype=np.bool_)
     for i, j in sorted(cKDTree(position).query_pairs(closest * (1.0 - TOLERANCE))):
         if keep[i]:

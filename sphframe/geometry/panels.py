@@ -4,14 +4,10 @@ import itertools
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import Array, IntArray
 from sphframe.geometry.shapes import grid
 from sphframe.geometry.walls import BoxWall, PolygonWall, Wall
-
-__all__ = ["Panels", "wall_panels"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -20,7 +16,7 @@ class Panels:
 
     centre: Array
     area: Array
-    wall: NDArray[np.int64]
+    wall: IntArray
 
 
 def wall_panels(walls: tuple[Wall, ...], spacing: float) -> Panels:

@@ -4,12 +4,9 @@ from collections.abc import Sequence
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-__all__ = ["BoxRegion", "PolygonRegion", "Region", "check_box", "grid", "lattice", "lattice_cell"]
-
-Array = NDArray[np.float64]
+from sphframe.arrays import Array
 
 
 class PolygonRegion(BaseModel):

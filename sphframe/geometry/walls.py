@@ -5,14 +5,10 @@ import math
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from sphframe.arrays import Array, BoolArray
 from sphframe.geometry.shapes import check_box, grid
-
-__all__ = ["TOLERANCE", "BoxWall", "PolygonWall", "Wall"]
-
-Array = NDArray[np.float64]
 
 TOLERANCE = 1e-9
 """share of a length below which two points are taken to be equal"""
@@ -93,7 +89,7 @@ class PolygonWall(BaseModel):
             at_corner[closer] = beyond[closer]
         return foot, _reflections(position - foot, at_corner)
 
-    def is_behind(self, position: Array) -> NDArray[np.bool_]:
+    def is_behind(self, position: Array) -> BoolArray:
         """Whether each ``position`` (n, 2) lies behind the wall, not on it, judged at the nearest point.
 
         Beyond the open ends of a polyline nothing is behind it.
@@ -195,7 +191,7 @@ class BoxWall(BaseModel):
             reflection[:, k, k] = np.where(crossed[:, k], -1.0, 1.0)
         return foot, reflection
 
-    def is_behind(self, position: Array) -> NDArray[np.bool_]:
+    def is_behind(self, position: Array) -> BoolArray:
         """Whether each ``position`` (n, dim) lies behind a closed face (outside the fluid)."""
         low, high = self._reach()
         on_wall = TOLERANCE * float(np.max(np.subtract(self.upper, self.lower)))
@@ -227,7 +223,7 @@ def _corner_ghosts(corner: Array, t1: Array, n1: Array, t2: Array, n2: Array, de
     return np.vstack(rings)
 
 
-def _reflections(offset: Array, at_corner: NDArray[np.bool_]) -> Array:
+def _reflections(offset: Array, at_corner: BoolArray) -> Array:
     """S = 1 - 2 n n^T along ``offset`` (n, 2), or -1 at corners."""
     normal = offset / np.maximum(np.linalg.norm(offset, axis=1, keepdims=True), 1e-300)
     identity = np.eye(2)

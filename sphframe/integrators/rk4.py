@@ -4,8 +4,6 @@ from typing import ClassVar, final
 
 from sphframe.interfaces import Integrator, System
 
-__all__ = ["RungeKutta4"]
-
 
 @final
 class RungeKutta4(Integrator):

@@ -4,8 +4,6 @@ from typing import ClassVar, final
 
 from sphframe.interfaces import Integrator, System
 
-__all__ = ["Symplectic"]
-
 
 @final
 class Symplectic(Integrator):

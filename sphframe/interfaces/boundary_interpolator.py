@@ -6,9 +6,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import TYPE_CHECKING, final
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from sphframe.arrays import Array
 from sphframe.interfaces.kernel import CompiledKernel
 from sphframe.interfaces.traits import Traits
 from sphframe.representation import html_table
@@ -18,9 +18,6 @@ if TYPE_CHECKING:
 
     from sphframe.boundary.operator import ParticleCloud
 
-__all__ = ["BoundaryInterpolator", "WeightsFunction"]
-
-Array = NDArray[np.float64]
 WeightsFunction = Callable[[Array, Array, Array, Array, float, Array, Array], int]
 
 
@@ -96,12 +93,7 @@ class BoundaryInterpolator(ABC):
         from sphframe.boundary.operator import operator  # from a room above: an exception listed in pyproject.toml
 
         matrix, _ = operator(
-            self,
-            points,
-            cloud.positions,
-            cloud.volumes,
-            smoothing_length=cloud.smoothing_length,
-            kernel=cloud.kernel,
+            self, points, cloud.positions, cloud.volumes, smoothing_length=cloud.smoothing_length, kernel=cloud.kernel
         )
         return matrix
 
@@ -115,13 +107,7 @@ class BoundaryInterpolator(ABC):
 
 
 def kernel_average(
-    offsets: Array,
-    distances: Array,
-    kernel_values: Array,
-    volumes: Array,
-    support: float,
-    lift: Array,
-    out: Array,
+    offsets: Array, distances: Array, kernel_values: Array, volumes: Array, support: float, lift: Array, out: Array
 ) -> int:
     """Phi_j = W_j V_j / sum_k W_k V_k; the nearest particle alone where every W_k V_k is zero in floating point."""
     n = distances.shape[0]

@@ -3,8 +3,6 @@
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 
-__all__ = ["EquationOfState", "StateFunction"]
-
 StateFunction = Callable[[float, float, float], float]
 
 

@@ -3,8 +3,6 @@
 from abc import ABC, abstractmethod
 from typing import ClassVar, Protocol
 
-__all__ = ["Integrator", "System"]
-
 
 class System(Protocol):
     """The ordinary differential equation dy/dt = f(t, y) that an integrator solves.

@@ -5,8 +5,6 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import ClassVar, NamedTuple
 
-__all__ = ["CompiledKernel", "Kernel", "ScalarFunction"]
-
 ScalarFunction = Callable[[float], float]
 
 

@@ -3,12 +3,7 @@
 from abc import ABC, abstractmethod
 from typing import ClassVar, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
-__all__ = ["Motion", "RigidBody"]
-
-Array = NDArray[np.float64]
+from sphframe.arrays import Array
 
 
 class Motion(NamedTuple):

@@ -6,17 +6,13 @@ only reads its members and never changes the run. Only the checkpoint writer nee
 
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, runtime_checkable
 
-import numpy as np
 from numpy.typing import NDArray
 
+from sphframe.arrays import Array, IntArray
 from sphframe.interfaces.rigid_body import Motion
 
 if TYPE_CHECKING:  # the types alone: at run time the interfaces import no other room
     from sphframe.cases import Case, Scene
-
-__all__ = ["Fields", "GhostView", "ResumableRun", "RunView"]
-
-Array = NDArray[np.float64]
 
 
 class Fields(NamedTuple):
@@ -108,7 +104,7 @@ class RunView(Protocol):
     def particles_outside(self) -> int:
         """Return the number of fluid particles behind a wall."""
 
-    def status_counts(self) -> NDArray[np.int64]:
+    def status_counts(self) -> IntArray:
         """Return the number of ghosts by :class:`~sphframe.interfaces.Status` at the last evaluation."""
 
     def body_motions(self) -> dict[str, Motion]:

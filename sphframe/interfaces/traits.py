@@ -7,8 +7,6 @@ point a method returns a :class:`Status`, since it must not raise inside a compi
 import enum
 from dataclasses import dataclass
 
-__all__ = ["DRY", "OK", "SINGULAR", "TOO_FEW", "EvaluationPoint", "Status", "Traits"]
-
 
 class Status(enum.IntEnum):
     """Result of the interpolation to one evaluation point; compiled functions use integers of the same names."""

@@ -1,15 +1,14 @@
 """Kernels: the smoothing kernels; their compiled functions, and their values on NumPy arrays."""
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from sphframe.arrays import Array
 from sphframe.compiled import compile_part
 from sphframe.interfaces import CompiledKernel, Kernel
 from sphframe.interfaces.kernel import ScalarFunction
 
 __all__ = ["compiled_kernel", "kernel_gradient_factor", "kernel_value"]
-
-Array = NDArray[np.float64]
 
 
 def compiled_kernel(kernel: Kernel, dim: int) -> CompiledKernel:

@@ -8,8 +8,6 @@ from sphframe.compiled import fast_exp
 from sphframe.interfaces import Kernel
 from sphframe.interfaces.kernel import ScalarFunction
 
-__all__ = ["RenormalisedGaussian"]
-
 _AT_CUT_OFF = math.exp(-9.0)
 
 

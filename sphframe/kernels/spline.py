@@ -7,8 +7,6 @@ from typing import ClassVar
 from sphframe.interfaces import Kernel
 from sphframe.interfaces.kernel import ScalarFunction
 
-__all__ = ["CubicSpline", "QuinticSpline"]
-
 
 def _cubic_value(q: float) -> float:
     if q < 1.0:

@@ -7,8 +7,6 @@ from typing import ClassVar
 from sphframe.interfaces import Kernel
 from sphframe.interfaces.kernel import ScalarFunction
 
-__all__ = ["WendlandC2", "WendlandC4"]
-
 
 def _c2_value(q: float) -> float:
     s = 1.0 - 0.5 * q

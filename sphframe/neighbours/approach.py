@@ -10,8 +10,6 @@ import numpy as np
 
 from sphframe.compiled import local_array
 
-__all__ = ["relative_displacement"]
-
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
 def relative_displacement(rows, reference, dim, origin, edge, shape, boxes):  # type: ignore[no-untyped-def]

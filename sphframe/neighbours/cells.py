@@ -11,11 +11,8 @@ from typing import NamedTuple
 
 import numba
 import numpy as np
-from numpy.typing import NDArray
 
-__all__ = ["Grid", "bounding_box", "cell_number", "grid_around", "put_in_order", "row_number", "sort_by_cell"]
-
-Array = NDArray[np.float64]
+from sphframe.arrays import Array, IntArray
 
 
 class Grid(NamedTuple):
@@ -26,7 +23,7 @@ class Grid(NamedTuple):
 
     origin: Array
     cell: Array
-    shape: NDArray[np.int64]
+    shape: IntArray
 
     @property
     def size(self) -> int:

@@ -17,13 +17,10 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from sphframe.arrays import Array, IntArray
 from sphframe.neighbours.approach import relative_displacement
 from sphframe.neighbours.cells import Grid, bounding_box, cell_number, grid_around, row_number, sort_by_cell
 from sphframe.neighbours.motion import LargestMotion, largest_motion, largest_wall_displacement
-
-__all__ = ["NeighbourLists"]
-
-Array = NDArray[np.float64]
 
 _PARTS = 2
 """number of parts in which rows are sorted and measured in parallel"""
@@ -94,7 +91,7 @@ class NeighbourLists:
         """Search radius, m."""
         return self.support + self.skin
 
-    def sort(self, rows: Array) -> NDArray[np.int64]:
+    def sort(self, rows: Array) -> IntArray:
         """Make the grid around the fluid ``rows`` (n, width) and return the order in which the rows must be put."""
         bounding_box(rows, self.fluid_count, self.dim, self._lower, self._upper)
         self._grid = grid_around(

@@ -5,8 +5,6 @@ from typing import NamedTuple
 
 import numba
 
-__all__ = ["LargestMotion", "largest_motion", "largest_wall_displacement"]
-
 
 class LargestMotion(NamedTuple):
     """Largest ``speed`` of the fluid, m/s, and its largest ``displacement`` since the lists were built, m."""

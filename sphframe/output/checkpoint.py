@@ -29,8 +29,6 @@ from sphframe.output.provenance import distributions, software
 if TYPE_CHECKING:
     from sphframe.cases import Case
 
-__all__ = ["Checkpoint", "changed_versions", "checkpoint_path", "read_checkpoint", "write_checkpoint"]
-
 _FORMAT = 2
 _HEADER = "checkpoint.json"
 _TYPES = {"f": "<f8", "i": "<i8"}

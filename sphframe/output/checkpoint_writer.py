@@ -9,8 +9,6 @@ from sphframe.interfaces import ResumableRun
 from sphframe.output.checkpoint import checkpoint_path, write_checkpoint
 from sphframe.output.writer import NetCDFWriter
 
-__all__ = ["CheckpointWriter"]
-
 
 @final
 class CheckpointWriter:

@@ -14,8 +14,6 @@ from sphframe.output.provenance import distributions, registered_name, software
 from sphframe.output.schema import CONVENTIONS, VARIABLES, RunStatus, Variable, encode_texts, unit_of
 from sphframe.registry import COMPONENT_KINDS
 
-__all__ = ["frame_of", "planned_size", "sample_of", "write_start"]
-
 _MESSAGE_LENGTH = 500
 
 

@@ -5,8 +5,6 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-__all__ = ["draft_path", "replaced_as_a_whole"]
-
 
 def draft_path(path: Path) -> Path:
     """Return the name beside ``path`` under which its new content is written first."""

@@ -4,8 +4,6 @@ import os
 import sys
 from pathlib import Path
 
-__all__ = ["is_same_file", "lock_file"]
-
 
 def lock_file(path: Path) -> int | None:
     """Lock ``path`` for the writing run and return the open descriptor that holds the lock; None if it is taken.

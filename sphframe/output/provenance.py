@@ -10,8 +10,6 @@ from sphframe import registry
 if TYPE_CHECKING:
     from sphframe.cases import Case
 
-__all__ = ["distributions", "registered_name", "software"]
-
 
 def distributions(case: "Case") -> dict[str, str]:
     """Return the versions of sphframe and of all distributions that the case and its components come from."""

@@ -12,8 +12,6 @@ from sphframe.output.schema import RunStatus
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["open_dataset"]
-
 
 def open_dataset(path: str | os.PathLike[str]) -> "xr.Dataset":
     """Open a file written by :class:`~sphframe.output.NetCDFWriter`.

@@ -23,8 +23,6 @@ from sphframe.output.lock import is_same_file, lock_file
 from sphframe.output.schema import FORMAT, RunStatus, encode_texts
 from sphframe.output.target import exists_message, locked_message
 
-__all__ = ["RunFile"]
-
 _DISK_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 

@@ -11,8 +11,6 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["CONVENTIONS", "FORMAT", "VARIABLES", "RunStatus", "Variable", "encode_texts", "unit_of"]
-
 CONVENTIONS = "CF-1.11"
 FORMAT: Final = "NETCDF3_64BIT_DATA"
 """CDF-5, the classic format: a fixed header followed by data, so the file of a killed run stays readable"""

@@ -8,8 +8,6 @@ from sphframe.errors import OutputError
 from sphframe.output.checkpoint import checkpoint_path
 from sphframe.output.lock import lock_file
 
-__all__ = ["check_space", "check_target", "exists_message", "locked_message"]
-
 
 def check_target(path: Path, overwrite: bool) -> None:
     """Raise an error if no run may write to ``path``.

@@ -18,8 +18,6 @@ from sphframe.output.run_file import RunFile
 from sphframe.output.schema import RunStatus
 from sphframe.output.target import check_space, check_target
 
-__all__ = ["NetCDFWriter"]
-
 
 @final
 class NetCDFWriter:

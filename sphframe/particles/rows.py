@@ -18,11 +18,8 @@ d .. 2d-1   velocity velocity, m/s
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-__all__ = ["Columns"]
-
-Array = NDArray[np.float64]
+from sphframe.arrays import Array
 
 
 class Columns(NamedTuple):

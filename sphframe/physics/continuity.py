@@ -17,8 +17,6 @@ import numba
 
 from sphframe.compiled import fma
 
-__all__ = ["diffusive_flux"]
-
 
 @numba.njit(inline="always")
 def diffusive_flux(density_difference, gradient_difference):  # type: ignore[no-untyped-def]

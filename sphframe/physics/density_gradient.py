@@ -13,8 +13,6 @@ doi:10.1016/j.cma.2010.12.016.
 
 import numba
 
-__all__ = ["ILL_CONDITIONED", "renormalised_2d", "renormalised_3d"]
-
 ILL_CONDITIONED = 0.02
 """det(A) / (trace(A)/d)^d below which the matrix A = L^-1 is not inverted; it is 1 in a full neighbourhood"""
 

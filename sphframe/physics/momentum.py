@@ -14,8 +14,6 @@ Source: X. Huang et al. (2019), doi:10.3390/w11051110, Eq. 5.
 
 import numba
 
-__all__ = ["pair_stress"]
-
 
 @numba.njit(inline="always")
 def pair_stress(pressure_sum, viscosity, approach, distance2):  # type: ignore[no-untyped-def]

@@ -4,8 +4,6 @@ from typing import NamedTuple
 
 from sphframe.interfaces import CompiledKernel
 
-__all__ = ["LoopParameters"]
-
 
 class LoopParameters(NamedTuple):
     """Constants of a run in the form in which the loops use them; d is the number of dimensions.

@@ -4,8 +4,6 @@ import numba
 
 from sphframe.compiled.stand_ins import COLUMNS, DENSITY, PRESSURE
 
-__all__ = ["invert_pressure", "update_pressure"]
-
 
 def invert_pressure(rows, count, parameters):  # type: ignore[no-untyped-def]
     """Write the density (kg/m^3) of the first ``count`` rows from their pressure."""

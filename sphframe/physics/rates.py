@@ -12,8 +12,6 @@ from sphframe.physics.continuity import diffusive_flux
 from sphframe.physics.density_gradient import renormalised_2d, renormalised_3d
 from sphframe.physics.momentum import pair_stress
 
-__all__ = ["fluid_sums"]
-
 # parts bound by specialise()
 CONTINUITY = True
 

@@ -17,8 +17,6 @@ import numba
 from sphframe.compiled import squared_distance
 from sphframe.compiled.stand_ins import COLUMNS, DIM, SUPPORT, VALUE
 
-__all__ = ["sample_points"]
-
 
 def sample_points(points, rows, lists, counts, parameters, pressures, fillings):  # type: ignore[no-untyped-def]
     """Write the pressure (Pa, 0 where dry) and the filling of ``points`` (k, dim)."""

@@ -17,8 +17,6 @@ from sphframe.compiled import LANES
 from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, SUPPORT
 from sphframe.physics.momentum import pair_stress
 
-__all__ = ["wall_reaction"]
-
 
 @numba.njit(inline="always")
 def add_load(load, row, centre, fx, fy, fz):  # type: ignore[no-untyped-def]

@@ -10,8 +10,6 @@ from sphframe.errors import ApiVersionError, BrokenPluginError, PluginError
 from sphframe.registry.entries import Entry, available, find, is_address, remember
 from sphframe.registry.kinds import API_VERSION, OLDEST_API_VERSION
 
-__all__ = ["check", "create", "load"]
-
 
 def load(kind: str, name: str) -> Any:
     """Load the component ``name``, or ``module:attribute``, and check it against the interface of its kind.

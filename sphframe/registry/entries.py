@@ -13,8 +13,6 @@ from sphframe.registry.kinds import DISTRIBUTIONS, KINDS, LABELS
 from sphframe.registry.nearest import did_you_mean, nearest
 from sphframe.representation import html_table
 
-__all__ = ["Entry", "Listing", "available", "clear", "find", "is_address", "remember"]
-
 _ADDRESS = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
 
 

@@ -1,7 +1,5 @@
 """Registry: the kinds of components, and which version of the plugin interface they are written for."""
 
-__all__ = ["API_VERSION", "COMPONENT_KINDS", "DISTRIBUTIONS", "KINDS", "LABELS", "OLDEST_API_VERSION"]
-
 API_VERSION = (1, 0)
 """version of the plugin interface that this sphframe offers"""
 OLDEST_API_VERSION = (1, 0)

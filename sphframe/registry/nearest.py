@@ -3,8 +3,6 @@
 import difflib
 from collections.abc import Iterable
 
-__all__ = ["did_you_mean", "nearest"]
-
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
     """Return the candidate most similar to ``name``, ignoring case and hyphens, or None when none is similar.

@@ -14,8 +14,6 @@ from pydantic import BaseModel, ConfigDict, PydanticUserError, TypeAdapter, Vali
 from sphframe.errors import BrokenPluginError, InputError, SphframeError
 from sphframe.registry.nearest import did_you_mean
 
-__all__ = ["construct"]
-
 _CONFIG = ConfigDict(allow_inf_nan=False, arbitrary_types_allowed=True)
 
 

@@ -3,14 +3,10 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import Array
 from sphframe.errors import SimulationError
 from sphframe.interfaces import Motion, RigidBody
-
-__all__ = ["BodyStates"]
-
-Array = NDArray[np.float64]
 
 
 class BodyStates:

@@ -10,8 +10,6 @@ from sphframe.kernels import compiled_kernel
 from sphframe.particles import Columns
 from sphframe.registry import COMPONENT_KINDS
 
-__all__ = ["Components", "loop_parts"]
-
 
 @dataclass(frozen=True)
 class Components:

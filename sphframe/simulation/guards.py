@@ -9,8 +9,8 @@ from typing import NamedTuple, NoReturn
 
 import numba
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import Array, BoolArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.operator import operator
 from sphframe.cases import Case
@@ -18,10 +18,6 @@ from sphframe.errors import SimulationError
 from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint, Kernel, Status
 from sphframe.registry import find
 from sphframe.simulation.system import FluidSystem
-
-__all__ = ["Tolerated", "check_state", "check_time_step", "check_traits"]
-
-Array = NDArray[np.float64]
 
 COLLAPSED = 0.02
 """lowest adaptive time step over that at rest; below it, at speeds above 50 c0, the time step has collapsed"""
@@ -32,7 +28,7 @@ _STEP_IS_TOO_LONG = "a time step above the stability limit (set a smaller couran
 class Tolerated(NamedTuple):
     """Faults of the fluid that the case tolerates."""
 
-    outside: NDArray[np.bool_] | None
+    outside: BoolArray | None
     """(n,) particles that have left the domain and are to be removed"""
     densities_outside: int
     """number of particles whose density is out of range"""
@@ -159,10 +155,7 @@ def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator, kernel
     wet = statuses != int(Status.DRY)
     for wrong, what in (
         (~np.isfinite(sums), "weights that are not finite"),
-        (
-            traits.non_negative & (lowest < -_ROUND_OFF * size),
-            "negative weights, against its traits,",
-        ),
+        (traits.non_negative & (lowest < -_ROUND_OFF * size), "negative weights, against its traits,"),
         (
             traits.partition_of_unity & wet & (np.abs(sums - 1.0) > 1e-6 * np.maximum(1.0, size)),
             "weights that do not add up to one, against its traits,",

@@ -1,8 +1,8 @@
 """Simulation: the system at the start of a case: particles on their lattice, ghosts, and the pressure at rest."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.filling import Filling
 from sphframe.cases import Case, Scene
@@ -15,10 +15,6 @@ from sphframe.physics import LoopParameters, invert_pressure
 from sphframe.simulation.components import Components
 from sphframe.simulation.rest_state import pressure_at_depth
 from sphframe.simulation.system import FluidSystem
-
-__all__ = ["initial_system", "loop_parameters"]
-
-Array = NDArray[np.float64]
 
 SKIN = 0.1
 """skin of the neighbour lists over the kernel support"""

@@ -6,8 +6,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-__all__ = ["Interruption", "deferred_interruption"]
-
 
 class Interruption:
     """Whether the run was asked to stop."""

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sphframe.arrays import Array, IntArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.cases import Case, Scene
 from sphframe.compiled import specialise
@@ -15,10 +16,6 @@ from sphframe.physics import sample_points
 from sphframe.simulation.components import Components
 from sphframe.simulation.probes import Gauges, PressureProbes
 from sphframe.simulation.system import FluidSystem
-
-__all__ = ["Observation"]
-
-Array = NDArray[np.float64]
 
 
 class Observation:
@@ -147,7 +144,7 @@ class Observation:
             outside |= wall.is_behind(self._in_frame(position, body) if body >= 0 else position)
         return int(outside.sum())
 
-    def status_counts(self) -> NDArray[np.int64]:
+    def status_counts(self) -> IntArray:
         """Return the number of ghosts by :class:`Status` at the last evaluation."""
         return np.bincount(self.boundary.statuses, minlength=len(Status))
 

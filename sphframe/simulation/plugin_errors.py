@@ -10,8 +10,6 @@ from sphframe.cases import Case
 from sphframe.errors import BrokenPluginError, SimulationError, SphframeError
 from sphframe.registry import COMPONENT_KINDS, Entry, available, find
 
-__all__ = ["naming_component", "naming_hook"]
-
 
 @contextmanager
 def naming_component(case: Case, *, running: bool) -> Iterator[None]:

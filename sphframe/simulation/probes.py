@@ -3,14 +3,10 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import Array
 from sphframe.cases import Gauge, Probe
 from sphframe.errors import InputError
-
-__all__ = ["Gauges", "PressureProbes"]
-
-Array = NDArray[np.float64]
 
 _NODES, _NODE_WEIGHTS = np.polynomial.legendre.leggauss(9)
 

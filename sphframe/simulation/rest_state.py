@@ -3,11 +3,8 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-__all__ = ["pressure_at_depth"]
-
-Array = NDArray[np.float64]
+from sphframe.arrays import Array
 
 
 def pressure_at_depth(

@@ -20,8 +20,6 @@ from sphframe.simulation.simulation import Simulation
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Prepared", "Run", "prepare_resume", "resume", "run"]
-
 
 @dataclass(frozen=True)
 class Run:

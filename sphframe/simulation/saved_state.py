@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from sphframe.errors import InputError
 
-__all__ = ["check_saved_state"]
-
 Arrays = Mapping[str, NDArray[Any]]
 
 _PER_FLUID_PARTICLE = ("ids", "rates", "gradient", "lists.fluid")

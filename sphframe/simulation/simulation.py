@@ -21,8 +21,6 @@ from sphframe.simulation.observation import Observation
 from sphframe.simulation.plugin_errors import naming_component, naming_hook
 from sphframe.simulation.saved_state import check_saved_state
 
-__all__ = ["Simulation"]
-
 
 class Simulation(Observation):
     """A running simulation of a case.

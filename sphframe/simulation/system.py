@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sphframe.arrays import Array, BoolArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.contact import put_back
 from sphframe.boundary.filling import Filling
@@ -26,10 +27,6 @@ from sphframe.simulation.updates import (
     advance_velocity,
     copy_state,
 )
-
-__all__ = ["FluidSystem"]
-
-Array = NDArray[np.float64]
 
 
 class FluidSystem(System):
@@ -100,7 +97,7 @@ class FluidSystem(System):
         boundary = self.boundary
         return self.lists.remain_valid(self.rows, boundary.points, motion, wall_speed=boundary.speed, interval=interval)
 
-    def keep(self, kept: NDArray[np.bool_]) -> None:
+    def keep(self, kept: BoolArray) -> None:
         """Continue with the fluid particles that are ``kept`` (n,), whose neighbours must be found again."""
         n = self.fluid_count
         self.rows = np.vstack([self.rows[:n][kept], self.rows[n:]])

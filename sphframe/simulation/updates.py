@@ -2,8 +2,6 @@
 
 import numba
 
-__all__ = ["accumulate_rates", "advance_density", "advance_position", "advance_state", "advance_velocity", "copy_state"]
-
 
 @numba.njit(parallel=True, cache=True)
 def copy_state(rows, start):  # type: ignore[no-untyped-def]

@@ -1,9 +1,10 @@
 """Studies: sets of runs as independent tasks on a cluster, and reports of what they show."""
 
 from sphframe.analysis.drawing import draw_particles, draw_walls
+from sphframe.analysis.figures import new_figure
 from sphframe.studies.chapter import Cell, Chapter, Claim, Picture, Table, Verdict
 from sphframe.studies.comparison import Comparison, compare
-from sphframe.studies.drawing import colour, new_figure, picture, thinned, tidy
+from sphframe.studies.drawing import colour, picture, thinned, tidy
 from sphframe.studies.engine import Progress
 from sphframe.studies.measurement import CostTask
 from sphframe.studies.reproduce import reproduce

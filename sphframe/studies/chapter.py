@@ -5,8 +5,6 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import Literal
 
-__all__ = ["Cell", "Chapter", "Claim", "Picture", "Table", "Verdict"]
-
 Cell = str | float | int | None
 """value in a table; None and NaN mean that it is not known"""
 

@@ -19,8 +19,6 @@ from sphframe.studies.engine import ProgressListener, carry_out
 from sphframe.studies.report import write_report
 from sphframe.studies.tasks import RunTask, software_of
 
-__all__ = ["Comparison", "compare"]
-
 
 @dataclass(frozen=True)
 class Comparison:

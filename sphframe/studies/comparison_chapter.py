@@ -5,10 +5,9 @@ from typing import Any
 
 import xarray as xr
 
+from sphframe.analysis.figures import new_figure
 from sphframe.studies.chapter import Cell, Chapter, Picture, Table
-from sphframe.studies.drawing import colour, new_figure, picture, thinned, tidy
-
-__all__ = ["comparison_chapter"]
+from sphframe.studies.drawing import colour, picture, thinned, tidy
 
 
 def comparison_chapter(dataset: xr.Dataset) -> Chapter:
@@ -20,7 +19,7 @@ def comparison_chapter(dataset: xr.Dataset) -> Chapter:
             f"The error is the {dataset['error'].attrs['long_name']}"
             + (" over rho g H." if dataset["error"].attrs["units"] == "1" else ", in Pa.")
             + " The wall-clock time is that of a run that shared the machine with others, so that it shows costs only"
-            " roughly; sphframe bench measures them.",
+            " roughly; sphframe bench measures them."
         ],
         [Table("comparison", "Error and cost of each method at each resolution", _rows(dataset))],
         [_curves(dataset), *([_histories(dataset)] if dataset.sizes["probe"] else [])],

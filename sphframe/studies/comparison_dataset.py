@@ -9,12 +9,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from sphframe.analysis import convergence_order, pressure_scale, rest_pressure, running_mean, summary
+from sphframe.arrays import Array
 from sphframe.errors import InputError
 from sphframe.studies.series import fallback_share
-
-__all__ = ["comparison_dataset"]
-
-Array = NDArray[np.float64]
 
 _SAMPLES = 2001
 """number of times at which the dataset holds the pressures at the probes"""

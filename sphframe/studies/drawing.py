@@ -5,13 +5,11 @@ import itertools
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from sphframe.analysis import figures
-from sphframe.analysis.figures import new_figure
+from sphframe.arrays import Array
 from sphframe.studies.chapter import Picture
-
-__all__ = ["colour", "new_figure", "picture", "thinned", "tidy"]
 
 _COLOURS = {
     "improved-shepard": "#d62728",
@@ -49,7 +47,7 @@ def picture(name: str, caption: str, figure: Any, *, raster: bool = False) -> Pi
     return Picture(name, caption, content.getvalue(), "png" if raster else "svg")
 
 
-def thinned(t: ArrayLike, values: ArrayLike, most: int = 800) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def thinned(t: ArrayLike, values: ArrayLike, most: int = 800) -> tuple[Array, Array]:
     """Return a series with at most about ``most`` points that keeps the extremes, for drawing.
 
     >>> t, y = thinned(range(1000), [0.0] * 500 + [9.0] + [0.0] * 499, most=20)

@@ -22,8 +22,6 @@ from sphframe.errors import InputError, OutputError, SphframeError
 from sphframe.output.lock import lock_file
 from sphframe.studies.tasks import UNFINISHED, Task, lock_of, work
 
-__all__ = ["Progress", "ProgressListener", "carry_out"]
-
 _TOPIC = "sphframe-progress"
 _CONNECT_TIMEOUT = "30s"
 _DASK_SETTINGS = {

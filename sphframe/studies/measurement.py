@@ -13,8 +13,6 @@ from sphframe.benchmark.methods import Side, side_by_side, wet_points
 from sphframe.simulation import Simulation
 from sphframe.studies.tasks import PartListener, Task, made_with, wall_boundary
 
-__all__ = ["CostTask"]
-
 
 @dataclass(frozen=True)
 class CostTask(Task):

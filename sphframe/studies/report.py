@@ -18,8 +18,6 @@ from sphframe.errors import InputError, OutputError
 from sphframe.output.files import replaced_as_a_whole
 from sphframe.studies.chapter import Cell, Chapter, Picture, Table, Verdict
 
-__all__ = ["shown", "write_report"]
-
 _MIME = {"svg": "image/svg+xml", "png": "image/png"}
 
 

@@ -17,8 +17,6 @@ from sphframe.studies.series import Reference
 from sphframe.studies.study import Study, installed_study
 from sphframe.studies.tasks import software_of
 
-__all__ = ["reproduce"]
-
 _QUICK = (
     "This is the quick version, at coarse resolutions and for short times. It shows that everything works; its numbers"
     " and verdicts differ from those of the whole study."

@@ -11,8 +11,6 @@ from sphframe.studies.chapter import Chapter
 from sphframe.studies.series import Reference
 from sphframe.studies.tasks import RunTask, Task
 
-__all__ = ["Section", "run_task"]
-
 
 class Section(NamedTuple):
     """A section of a study.

@@ -8,8 +8,6 @@ import xarray as xr
 from sphframe.analysis import read_reference_series, summary
 from sphframe.errors import InputError
 
-__all__ = ["Reference", "ended", "fallback_share"]
-
 
 class Reference:
     """Reference series in a folder that the user names, or none.

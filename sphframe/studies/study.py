@@ -7,8 +7,6 @@ from sphframe.errors import InputError, PluginError
 from sphframe.registry import available, create
 from sphframe.studies.section import Section
 
-__all__ = ["Study", "installed_study"]
-
 
 class Study(ABC):
     """A set of runs with the tables, figures and claims that are derived from them, such as those of a paper.

@@ -30,19 +30,6 @@ from sphframe.output.provenance import distributions, registered_name, software
 from sphframe.registry import load
 from sphframe.simulation.run import resume, run
 
-__all__ = [
-    "UNFINISHED",
-    "PartListener",
-    "RunTask",
-    "Task",
-    "lock_of",
-    "made_with",
-    "slug",
-    "software_of",
-    "wall_boundary",
-    "work",
-]
-
 UNFINISHED = "unfinished"
 """name of the folder, beside the results, that holds the files of tasks that are running or were interrupted"""
 CHECKPOINT_EVERY = 30.0

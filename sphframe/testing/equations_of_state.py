@@ -10,9 +10,6 @@ from sphframe.interfaces import EquationOfState
 from sphframe.testing.evaluation import title
 from sphframe.testing.proof import require
 
-__all__ = ["CHECKS"]
-
-
 _DENSITIES = 1000.0 * np.array([0.99, 0.999, 1.0, 1.0001, 1.001, 1.01, 1.03])
 
 

@@ -5,16 +5,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import Array
 from sphframe.boundary.operator import weights_loop
 from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint, Kernel
 from sphframe.registry import create
 from sphframe.testing.neighbourhoods import Cloud
-
-__all__ = ["Evaluate", "Outcome", "evaluate", "evaluator", "extrapolates", "plain_evaluator", "title"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

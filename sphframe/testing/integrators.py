@@ -9,8 +9,6 @@ from sphframe.interfaces import Integrator
 from sphframe.testing.evaluation import title
 from sphframe.testing.proof import require
 
-__all__ = ["CHECKS", "Oscillator"]
-
 
 class Oscillator:
     """An acoustic mode as a System: dx/dt = u, du/dt = -rho, drho/dt = u + forcing cos(2t), from x = rho = 1, u = 0."""

@@ -10,8 +10,6 @@ from sphframe.interfaces import Kernel
 from sphframe.testing.evaluation import title
 from sphframe.testing.proof import require
 
-__all__ = ["CHECKS"]
-
 
 def check_unit_integral(kernel: Kernel) -> None:
     """The integral of W is one in one, two and three dimensions."""
@@ -69,8 +67,7 @@ def check_compact_support(kernel: Kernel) -> None:
     value = kernel.value_function()
     edge = value(kernel.support * (1.0 - 1e-9))
     require(
-        abs(edge) < 1e-6 * value(0.0),
-        f"{title(kernel)}: w is {edge:.3g} at the cut-off q = {kernel.support:g}, not 0",
+        abs(edge) < 1e-6 * value(0.0), f"{title(kernel)}: w is {edge:.3g} at the cut-off q = {kernel.support:g}, not 0"
     )
 
 

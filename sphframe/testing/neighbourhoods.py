@@ -12,9 +12,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["ALL", "FAMILIES", "REGULAR", "SPARSE", "Cloud", "build", "catalogue", "condition", "magnification"]
+from sphframe.arrays import Array, BoolArray
 
-Array = NDArray[np.float64]
 Recipe = Callable[[np.random.Generator, int, float], tuple[Array, Array]]
 
 
@@ -67,12 +66,7 @@ class Cloud:
         lift = f", lift={self.lift.tolist()}" if np.any(self.lift) else ""
         return f"Cloud({self.offsets.tolist()}, volumes={self.volumes.tolist()}, support={self.support!r}{lift})"
 
-    def changed(
-        self,
-        offsets: Array | None = None,
-        volumes: Array | None = None,
-        lift: Array | None = None,
-    ) -> "Cloud":
+    def changed(self, offsets: Array | None = None, volumes: Array | None = None, lift: Array | None = None) -> "Cloud":
         """Return a copy with some parts replaced."""
         return Cloud(
             self.offsets if offsets is None else offsets,
@@ -81,7 +75,7 @@ class Cloud:
             self.lift if lift is None else lift,
         )
 
-    def members(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> "Cloud":
+    def members(self, index: NDArray[np.intp] | BoolArray) -> "Cloud":
         """Return the cloud that holds only the particles in ``index``, in that order."""
         return self.changed(self.offsets[index], self.volumes[index])
 

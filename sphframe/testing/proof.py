@@ -16,8 +16,6 @@ from sphframe.testing.evaluation import extrapolates, title
 from sphframe.testing.neighbourhoods import ALL, Cloud, catalogue
 from sphframe.testing.strategies import clouds
 
-__all__ = ["BrokenPromiseError", "Property", "prove", "require", "smallest"]
-
 Property = Callable[[Cloud], str | None]
 
 
@@ -36,11 +34,7 @@ class _FoundError(Exception):
 
 
 def prove(
-    method: BoundaryInterpolator,
-    dim: int,
-    promise: str,
-    wrong_with: Property,
-    families: tuple[str, ...] = ALL,
+    method: BoundaryInterpolator, dim: int, promise: str, wrong_with: Property, families: tuple[str, ...] = ALL
 ) -> None:
     """Search for a cloud of ``families`` for which ``wrong_with`` returns a complaint.
 

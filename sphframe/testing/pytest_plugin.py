@@ -8,8 +8,6 @@ from collections.abc import Iterator
 
 import pytest
 
-__all__ = ["no_installed_plugins", "pytest_configure"]
-
 
 def pytest_configure(config: pytest.Config) -> None:
     """Register the hypothesis profiles if hypothesis is installed."""

@@ -9,8 +9,6 @@ from sphframe.interfaces import RigidBody
 from sphframe.testing.evaluation import title
 from sphframe.testing.proof import require
 
-__all__ = ["CHECKS"]
-
 
 def check_motion(body: RigidBody) -> None:
     """The motion has three finite generalised coordinates, the same ones for the same arguments."""

@@ -6,8 +6,6 @@ from hypothesis import strategies as st
 
 from sphframe.testing.neighbourhoods import ALL, Cloud, build
 
-__all__ = ["clouds"]
-
 
 @st.composite
 def clouds(

@@ -8,8 +8,6 @@ from sphframe.interfaces import BoundaryInterpolator, EquationOfState, Integrato
 from sphframe.testing import equations_of_state, integrators, interpolators, kernels, rigid_bodies
 from sphframe.testing.evaluation import title
 
-__all__ = ["Check", "checks_of", "parametrize_with_checks"]
-
 
 @dataclass(frozen=True)
 class Check:

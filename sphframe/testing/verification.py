@@ -13,8 +13,6 @@ from sphframe.registry import available, create, find, load
 from sphframe.testing.proof import BrokenPromiseError
 from sphframe.testing.suite import Check, checks_of
 
-__all__ = ["Report", "Result", "verify"]
-
 KINDS = ("interpolators", "kernels", "equations_of_state", "integrators", "rigid_bodies")
 Verdict = Literal["kept", "held", "broken", "absent"]
 

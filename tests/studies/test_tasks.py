@@ -151,10 +151,7 @@ def test_a_worker_of_another_version_refuses(tiny: ModuleType, tmp_path: Path) -
 
 
 def test_costs_are_measured_for_each_method_on_the_same_state(tiny: ModuleType, tmp_path: Path) -> None:
-    methods: dict[str, Any] = {
-        "a": ({"name": "improved-shepard"}, "mirror"),
-        "b": ({"name": "adami"}, "balanced"),
-    }
+    methods: dict[str, Any] = {"a": ({"name": "improved-shepard"}, "mirror"), "b": ({"name": "adami"}, "balanced")}
     own = RunTask.of("x", tiny.tank())
     task = CostTask("cost", own.case_name, own.parameters, methods=methods, after=0.02, repeats=3)
     work(task, str(tmp_path), task.name, 1, quiet)

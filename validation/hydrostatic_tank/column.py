@@ -193,11 +193,7 @@ def main() -> None:
             print(f"{layers} layers, h/dx {stretch}: {before.real:6.2f} {after.real:6.2f}", flush=True)
 
     print("\nnormalized: growth, 1/s, of the operator about the state of rest of another column")
-    columns = {
-        "balanced": Column(lift="balanced"),
-        "mirror": Column(conjugate=False),
-        "mirror, conjugate": Column(),
-    }
+    columns = {"balanced": Column(lift="balanced"), "mirror": Column(conjugate=False), "mirror, conjugate": Column()}
     states = {name: column.rest() for name, column in columns.items()}
     for operator, column in columns.items():
         for about, state in states.items():

@@ -7,19 +7,7 @@ import numpy as np
 import xarray as xr
 
 from sphframe.analysis import pressure_scale, rest_pressure
-from sphframe.studies import (
-    Cell,
-    Chapter,
-    Claim,
-    Picture,
-    Reference,
-    Section,
-    Table,
-    Task,
-    new_figure,
-    picture,
-    tidy,
-)
+from sphframe.studies import Cell, Chapter, Claim, Picture, Reference, Section, Table, Task, new_figure, picture, tidy
 from sphframe_huang2019.histories import draw_history
 from sphframe_huang2019.variants import OURS, PAPER, Variant, row_of_run, run_with
 

@@ -8,18 +8,7 @@ import numpy as np
 import xarray as xr
 
 from sphframe.analysis import plot_run, pressure_scale
-from sphframe.studies import (
-    Chapter,
-    Claim,
-    Picture,
-    Reference,
-    Section,
-    Table,
-    Task,
-    new_figure,
-    picture,
-    tidy,
-)
+from sphframe.studies import Chapter, Claim, Picture, Reference, Section, Table, Task, new_figure, picture, tidy
 from sphframe_huang2019.histories import draw_history
 from sphframe_huang2019.variants import PAPER, Variant, row_of_run, run_with
 
@@ -124,7 +113,7 @@ def _chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) 
             f"Depth 0.2 m, seawall of 250 kg/m at 2.5 m on a spring of 10 N/m, particle spacing {spacing:g} mm"
             f" ({first.sizes['particle']} particles). The wall gives way at 1.1 times the hydrostatic force F static;"
             " F* = F/F static, x* = X/d. The paper does not give the height of the wave. It is 0.3 d here, chosen so"
-            " that the wall gives way within the paper's 2.0 to 2.2 s: this time is not a result.",
+            " that the wall gives way within the paper's 2.0 to 2.2 s: this time is not a result."
         ],
         [Table("movable_wall", "Force on the seawall and its motion", rows)],
         [

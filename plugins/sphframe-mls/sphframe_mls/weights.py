@@ -2,16 +2,7 @@
 
 from dataclasses import dataclass
 
-from sphframe import (
-    OK,
-    SINGULAR,
-    TOO_FEW,
-    BoundaryInterpolator,
-    CompiledKernel,
-    Traits,
-    WeightsFunction,
-    local_array,
-)
+from sphframe import OK, SINGULAR, TOO_FEW, BoundaryInterpolator, CompiledKernel, Traits, WeightsFunction, local_array
 
 _THINNEST = 1e-8
 """smallest pivot, relative to the scale of its degree: the square of the relative thickness of the cloud"""

@@ -4,16 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from sphframe import (
-    OK,
-    SINGULAR,
-    TOO_FEW,
-    BoundaryInterpolator,
-    CompiledKernel,
-    Traits,
-    WeightsFunction,
-    local_array,
-)
+from sphframe import OK, SINGULAR, TOO_FEW, BoundaryInterpolator, CompiledKernel, Traits, WeightsFunction, local_array
 
 __all__ = ["SFDI"]
 

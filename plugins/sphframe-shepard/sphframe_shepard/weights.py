@@ -5,12 +5,7 @@ from dataclasses import dataclass
 
 from sphframe import OK, BoundaryInterpolator, CompiledKernel, Traits, WeightsFunction, fast_exp
 
-_TRAITS = Traits(
-    non_negative=True,
-    range_restricted=True,
-    interpolates_particles=True,
-    volume_independent=True,
-)
+_TRAITS = Traits(non_negative=True, range_restricted=True, interpolates_particles=True, volume_independent=True)
 
 
 @dataclass(frozen=True)

@@ -5,25 +5,13 @@ geometry does not determine the weights, only large errors are reported.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import Array
 from sphframe.interfaces import BoundaryInterpolator
 from sphframe.interfaces.traits import Status
 from sphframe.testing.evaluation import Evaluate, Outcome, evaluator, title
 from sphframe.testing.neighbourhoods import Cloud, condition
 from sphframe.testing.proof import BrokenPromiseError
-
-__all__ = [
-    "CLEAR",
-    "broken",
-    "degree_of",
-    "difference_between",
-    "evaluator_of",
-    "invariance_tolerance",
-    "shortened",
-    "status_name",
-    "tolerance",
-]
 
 CLEAR = 1e-3
 """share of the cut-off radius: particles this near to it are left out, as vanishing weights magnify round-off"""
@@ -97,6 +85,6 @@ def status_name(outcome: Outcome) -> str:
     return Status(outcome.status).name if outcome.status in tuple(Status) else str(outcome.status)
 
 
-def shortened(weights: NDArray[np.float64]) -> str:
+def shortened(weights: Array) -> str:
     """Return the first weights as text."""
     return f"{weights[:6].tolist()}{' ...' if len(weights) > 6 else ''}"

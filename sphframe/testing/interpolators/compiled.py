@@ -21,14 +21,6 @@ from sphframe.testing.interpolators.comparison import (
 from sphframe.testing.neighbourhoods import SPARSE, Cloud, build
 from sphframe.testing.proof import BrokenPromiseError, prove
 
-__all__ = [
-    "check_compiles",
-    "check_no_allocation",
-    "check_plain_python_agrees",
-    "check_repeatable",
-    "check_writes_only_out",
-]
-
 
 def check_compiles(method: BoundaryInterpolator, dim: int) -> None:
     """The weights function compiles, runs and returns a number."""

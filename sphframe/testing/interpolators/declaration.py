@@ -9,8 +9,6 @@ from sphframe.testing.interpolators.comparison import broken, evaluator_of, stat
 from sphframe.testing.neighbourhoods import REGULAR, Cloud, condition, magnification
 from sphframe.testing.proof import BrokenPromiseError, prove
 
-__all__ = ["check_fewest_points", "check_traits"]
-
 WELL_PLACED = 2.0
 """largest sum of |weights| of a quadratic fit for which a method must return OK"""
 

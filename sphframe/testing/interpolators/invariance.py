@@ -1,34 +1,15 @@
 """Testing: changes of a neighbourhood that must not change the weights of an interpolation method."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import Array
 from sphframe.boundary.operator import operator
 from sphframe.interfaces import BoundaryInterpolator
 from sphframe.interfaces.traits import OK
 from sphframe.testing.evaluation import Outcome, extrapolates
-from sphframe.testing.interpolators.comparison import (
-    CLEAR,
-    broken,
-    degree_of,
-    difference_between,
-    evaluator_of,
-)
+from sphframe.testing.interpolators.comparison import CLEAR, broken, degree_of, difference_between, evaluator_of
 from sphframe.testing.neighbourhoods import REGULAR, SPARSE, Cloud, build, condition
 from sphframe.testing.proof import prove
-
-__all__ = [
-    "check_continuity",
-    "check_permutation_invariance",
-    "check_reflection_invariance",
-    "check_rotation_invariance",
-    "check_scale_invariance",
-    "check_translation_invariance",
-    "check_unit_independence",
-    "check_volume_independence",
-]
-
-Array = NDArray[np.float64]
 
 
 def check_rotation_invariance(method: BoundaryInterpolator, dim: int) -> None:

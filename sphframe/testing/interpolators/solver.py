@@ -1,8 +1,8 @@
 """Testing: the ghosts that the solver fills in a small pool, compared with those of the operator."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.filling import Filling
 from sphframe.boundary.operator import operator
@@ -16,11 +16,6 @@ from sphframe.registry import create
 from sphframe.simulation.components import loop_parts
 from sphframe.testing.evaluation import title
 from sphframe.testing.proof import BrokenPromiseError
-
-__all__ = ["check_solver_agrees"]
-
-Array = NDArray[np.float64]
-
 
 _SPACING = 0.01
 _SMOOTHING_LENGTH = 1.3 * _SPACING

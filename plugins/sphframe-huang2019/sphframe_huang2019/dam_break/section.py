@@ -31,11 +31,7 @@ def _chapter(runs: Mapping[str, xr.Dataset], reference: Reference, quick: bool) 
         "dam-break",
         "Dam break",
         [_setting(shepard), _SENSOR, goal(runs, experiments)],
-        [
-            *tables,
-            Table("dam_break_runs", "The runs: front, energy, fallback", list(rows.values())),
-            surge_table,
-        ],
+        [*tables, Table("dam_break_runs", "The runs: front, energy, fallback", list(rows.values())), surge_table],
         [
             snapshots(shepard),
             sensor_pressures(runs, PAPER, experiments, "dam_break_paper", "As Fig. 7: the paper's methods"),
