@@ -84,7 +84,7 @@ def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
     if shape_problems:
         return
     with np.errstate(over="ignore", under="ignore"):
-        count = sum(float(np.prod((np.asarray(region.upper) - region.lower) / spacing)) for region in scene.fluid)
+        count = sum(float(np.prod(np.subtract(*region.bounds()[::-1]) / spacing)) for region in scene.fluid)
     if count > _MOST_PARTICLES:
         yield (
             f"particle_spacing = {spacing:g} m would need {count:.2g} particles; choose a larger spacing"
@@ -111,7 +111,7 @@ def _dimension_problems(dim: int, scene: Scene) -> Iterator[str]:
     for wall in scene.walls:
         yield from expected(f"wall {wall.name!r}", wall.dimension, dim)
     for index, region in enumerate(scene.fluid):
-        yield from expected(f"fluid[{index}]", len(np.asarray(region.lower)), dim)
+        yield from expected(f"fluid[{index}]", region.dimension, dim)
     for probe in scene.probes:
         yield from expected(f"position of probe {probe.name!r}", len(probe.position), dim)
         if probe.tangent is not None:

@@ -55,8 +55,8 @@ class Custom(Case):
 
     def scene(self) -> Scene:
         """Return what was given, with its bodies made."""
-        lower = np.min([np.asarray(region.lower) for region in self.fluid], axis=0)
-        upper = np.max([np.asarray(region.upper) for region in self.fluid], axis=0)
+        lower = np.min([region.bounds()[0] for region in self.fluid], axis=0)
+        upper = np.max([region.bounds()[1] for region in self.fluid], axis=0)
         return Scene(
             walls=self.walls,
             fluid=self.fluid,

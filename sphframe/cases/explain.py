@@ -7,6 +7,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from sphframe.cases.parameters import unit_of
+from sphframe.geometry import SHAPES
 from sphframe.registry.nearest import did_you_mean
 
 _LONGEST = 60
@@ -73,7 +74,7 @@ def _place(location: tuple[int | str, ...]) -> str:
     for previous, part in zip((None, *location), location, strict=False):
         if isinstance(part, int):
             text += f"[{part}]"
-        elif part in ("polygon", "box") and isinstance(previous, int):
+        elif part in SHAPES and (isinstance(previous, int) or previous in ("of", "minus")):
             continue
         else:
             text += f".{part}" if text else str(part)

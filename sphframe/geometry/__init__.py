@@ -1,23 +1,59 @@
 """Geometry: walls and regions, and the particles, ghosts, mirror points and panels that are placed on them."""
 
+from sphframe.geometry.curves import sampled
 from sphframe.geometry.frames import directions_to_world, to_body_frame, to_world
 from sphframe.geometry.ghosts import GhostPoints, wall_ghosts
 from sphframe.geometry.panels import Panels, wall_panels
-from sphframe.geometry.shapes import BoxRegion, PolygonRegion, Region, lattice, lattice_cell
+from sphframe.geometry.regions import BoxRegion, PolygonRegion, Region, lattice, lattice_cell
+from sphframe.geometry.shapes import (
+    SHAPES,
+    AnyShape,
+    Arc,
+    Box,
+    Circle,
+    Curve,
+    Cylinder,
+    Difference,
+    Ellipse,
+    Mesh,
+    PointsFile,
+    Polygon,
+    Polyline,
+    Shape,
+    Sphere,
+    Union,
+)
 from sphframe.geometry.walls import BoxWall, PolygonWall, Wall
 
 __all__ = [
+    "SHAPES",
+    "AnyShape",
+    "Arc",
+    "Box",
     "BoxRegion",
     "BoxWall",
+    "Circle",
+    "Curve",
+    "Cylinder",
+    "Difference",
+    "Ellipse",
     "GhostPoints",
+    "Mesh",
     "Panels",
+    "PointsFile",
+    "Polygon",
     "PolygonRegion",
     "PolygonWall",
+    "Polyline",
     "Region",
+    "Shape",
+    "Sphere",
+    "Union",
     "Wall",
     "directions_to_world",
     "lattice",
     "lattice_cell",
+    "sampled",
     "to_body_frame",
     "to_world",
     "wall_ghosts",

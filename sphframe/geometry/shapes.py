@@ -1,49 +1,454 @@
-"""Geometry: regions that are filled with fluid, on a square or cubic lattice."""
+"""Geometry: shapes as data; plane ones become shapely geometries, solid ones triangle meshes."""
 
+import math
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import Annotated, Literal
+from pathlib import Path
+from typing import Annotated, Any, Literal, get_args
 
 import numpy as np
+import shapely
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from sphframe.arrays import Array
+from sphframe.geometry.curves import area_within, evaluate, line_through, points_of_csv, sampled, unit_circle
+from sphframe.geometry.meshes import closed_mesh, digest
+
+Point = tuple[float, float]
+Point3 = tuple[float, float, float]
+Length = Annotated[float, Field(gt=0)]
+
+_COARSE = 1e-3
+"""share of its extent to which a shape is followed where it is only checked or bounded"""
 
 
-class PolygonRegion(BaseModel):
-    """The inside of a simple polygon (2-D), corners in m in either sense of rotation."""
+class Shape(BaseModel, ABC):
+    """A shape in the plane, or a solid; lengths in m, angles in degrees.
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    Raises
+    ------
+    ValueError: when the shape is made, for a curve that crosses itself, repeated points, no area, or numbers that are
+        not finite; the message says where and how to fix it.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    shape: str
+
+    @property
+    def dimension(self) -> int:
+        """Dimension of space."""
+        return 2
+
+    @abstractmethod
+    def geometry(self, tolerance: float) -> Any:
+        """Return the shape, with curves replaced by chords at most ``tolerance`` (m) away from them.
+
+        Returns
+        -------
+        In 2-D a polygon or several (closed shapes, with the area of the shape) or a line (open ones) of shapely; in
+        3-D a mesh of trimesh.
+        """
+
+    def bounds(self) -> tuple[Array, Array]:
+        """Return the lower and the upper corner (dim,) of the box around the shape, m."""
+        bounds = np.reshape(self.geometry(_COARSE * self._extent()).bounds, (2, -1))
+        return bounds[0], bounds[1]
+
+    def _extent(self) -> float:
+        """Return a length of the order of the shape's size, or of its smallest part; 1 where there are no curves."""
+        return 1.0
+
+    @model_validator(mode="after")
+    def _sound(self) -> "Shape":
+        self.geometry(_COARSE * self._extent())
+        return self
+
+
+class Solid(Shape, ABC):
+    """A closed shape in three dimensions."""
+
+    @property
+    def dimension(self) -> int:  # noqa: D102
+        return 3
+
+
+class Polygon(Shape):
+    """The inside of a simple polygon, its corners in either sense of rotation.
+
+    Examples
+    --------
+    >>> Polygon(points=[(0, 0), (1, 0), (0, 1)]).geometry(0.01).area
+    0.5
+    """
 
     shape: Literal["polygon"] = "polygon"
-    points: tuple[tuple[float, float], ...] = Field(min_length=3)
+    points: tuple[Point, ...] = Field(min_length=3)
 
-    @property
-    def lower(self) -> Array:
-        """Lower corner of the bounding box, m."""
-        return np.asarray(np.min(self.points, axis=0))
-
-    @property
-    def upper(self) -> Array:
-        """Upper corner of the bounding box, m."""
-        return np.asarray(np.max(self.points, axis=0))
+    def geometry(self, tolerance: float) -> shapely.Polygon:  # noqa: D102
+        return area_within(self.points)
 
 
-class BoxRegion(BaseModel):
-    """A rectangle (2-D) or box (3-D) between two corners, m."""
+class Polyline(Shape):
+    """Straight lines from point to point, open at both ends.
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    Examples
+    --------
+    >>> Polyline(points=[(0, 1), (0, 0), (2, 0)]).geometry(0.01).length
+    3.0
+    """
+
+    shape: Literal["polyline"] = "polyline"
+    points: tuple[Point, ...] = Field(min_length=2)
+
+    def geometry(self, tolerance: float) -> shapely.LineString:  # noqa: D102
+        return line_through(self.points)
+
+
+class Box(Shape):
+    """A rectangle (2-D) or box (3-D) between two corners.
+
+    Examples
+    --------
+    >>> Box(lower=(0, 0), upper=(2, 1)).geometry(0.01).area
+    2.0
+    >>> Box(lower=(0, 0, 0), upper=(2, 1, 1)).dimension
+    3
+    """
 
     shape: Literal["box"] = "box"
     lower: tuple[float, ...] = Field(min_length=2, max_length=3)
     upper: tuple[float, ...] = Field(min_length=2, max_length=3)
 
+    @property
+    def dimension(self) -> int:  # noqa: D102
+        return len(self.lower)
+
+    def geometry(self, tolerance: float) -> Any:  # noqa: D102
+        if self.dimension == 2:
+            return shapely.box(*self.lower, *self.upper)
+        from trimesh.creation import box  # takes a second to import, and only solids need it
+
+        return box(bounds=[self.lower, self.upper])
+
+    def bounds(self) -> tuple[Array, Array]:  # noqa: D102
+        return np.array(self.lower, dtype=np.float64), np.array(self.upper, dtype=np.float64)
+
     @model_validator(mode="after")
-    def _ordered(self) -> "BoxRegion":
+    def _sound(self) -> "Box":
         check_box(self.lower, self.upper)
         return self
 
 
-Region = Annotated[PolygonRegion | BoxRegion, Field(discriminator="shape")]
+class Circle(Shape):
+    """A disc of ``radius`` around ``centre``.
+
+    Examples
+    --------
+    >>> disc = Circle(centre=(0, 0), radius=2).geometry(0.001)
+    >>> round(disc.area / math.pi, 9)
+    4.0
+    """
+
+    shape: Literal["circle"] = "circle"
+    centre: Point
+    radius: Length
+
+    def geometry(self, tolerance: float) -> shapely.Polygon:  # noqa: D102
+        return area_within(self.centre + self.radius * unit_circle(tolerance / self.radius))
+
+    def bounds(self) -> tuple[Array, Array]:  # noqa: D102
+        return np.subtract(self.centre, self.radius), np.add(self.centre, self.radius)
+
+    def _extent(self) -> float:
+        return self.radius
+
+
+class Ellipse(Shape):
+    """The inside of an ellipse with two ``semi_axes``, the first at ``angle`` (degrees) from the x axis.
+
+    Examples
+    --------
+    >>> round(Ellipse(centre=(0, 0), semi_axes=(2, 1), angle=30).geometry(0.001).area / math.pi, 9)
+    2.0
+    """
+
+    shape: Literal["ellipse"] = "ellipse"
+    centre: Point
+    semi_axes: tuple[Length, Length]
+    angle: float = 0.0
+
+    def geometry(self, tolerance: float) -> shapely.Polygon:  # noqa: D102
+        cos, sin = math.cos(math.radians(self.angle)), math.sin(math.radians(self.angle))
+        stretched = unit_circle(tolerance / max(self.semi_axes)) * self.semi_axes
+        return area_within(self.centre + stretched @ [[cos, sin], [-sin, cos]])
+
+    def _extent(self) -> float:
+        return max(self.semi_axes)
+
+
+class Arc(Shape):
+    """A part of a circle, an open curve from the angle ``start`` to ``stop`` (degrees, counter-clockwise from x).
+
+    Examples
+    --------
+    >>> bowl = Arc(centre=(0, 1), radius=1, start=180, stop=360).geometry(0.0001)
+    >>> round(bowl.length, 3)
+    3.141
+    """
+
+    shape: Literal["arc"] = "arc"
+    centre: Point
+    radius: Length
+    start: float
+    stop: float
+
+    def geometry(self, tolerance: float) -> shapely.LineString:  # noqa: D102
+        if not 0.0 < abs(self.stop - self.start) < 360.0:
+            raise ValueError(
+                f"an arc from {self.start:g} to {self.stop:g} degrees is empty or a full circle; give two angles less"
+                ' than 360 degrees apart, or shape = "circle"'
+            )
+        step = 2.0 * math.acos(max(1.0 - tolerance / self.radius, 0.5))
+        count = max(math.ceil(math.radians(abs(self.stop - self.start)) / step), 1)
+        angle = np.radians(np.linspace(self.start, self.stop, count + 1))
+        return line_through(self.centre + self.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1))
+
+    def _extent(self) -> float:
+        return self.radius
+
+
+class Curve(Shape):
+    """A curve whose coordinates ``x`` and ``y`` (m) are expressions of a parameter t between ``start`` and ``stop``.
+
+    Expressions consist of numbers, t, pi, ``+ - * / **``, and the functions sqrt, exp, log, sin, cos, tan, asin, acos,
+    atan, sinh, cosh, tanh and abs. A ``closed`` curve is the area within it. In Python, :func:`sampled` gives the
+    points of any function for a :class:`Polygon` or :class:`Polyline`.
+
+    Examples
+    --------
+    >>> bed = Curve(x="t", y="0.1 * sin(2 * pi * t) ** 2", start=0, stop=2)
+    >>> round(bed.geometry(1e-6).length, 4)
+    2.1848
+    """
+
+    shape: Literal["curve"] = "curve"
+    x: str
+    y: str
+    start: float = 0.0
+    stop: float = 1.0
+    closed: bool = False
+
+    def geometry(self, tolerance: float) -> shapely.Polygon | shapely.LineString:  # noqa: D102
+        points = sampled(self._at, self.start, self.stop, tolerance)
+        if not self.closed:
+            return line_through(points)
+        gap = float(np.linalg.norm(points[-1] - points[0]))
+        return area_within(points[:-1] if gap <= 1e-9 * np.ptp(points) else points)
+
+    def _at(self, t: Array) -> tuple[Array, Array]:
+        return evaluate(self.x, t), evaluate(self.y, t)
+
+    def _extent(self) -> float:
+        return float(np.ptp(sampled(self._at, self.start, self.stop, math.inf), axis=0).max()) or 1.0
+
+
+class PointsFile(Shape):
+    """The points of a CSV file, one ``x, y`` (m) a line, joined by straight lines; ``closed``: the area within them.
+
+    Lines that begin with ``#`` and a line of headings are left out. The file is read once; the points are kept with
+    the case and its output, so that a run can be repeated without the file.
+    """
+
+    shape: Literal["points"] = "points"
+    file: str
+    closed: bool = False
+    points: tuple[Point, ...] = ()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read(cls, given: Any) -> Any:
+        if isinstance(given, dict) and isinstance(given.get("file"), str) and not given.get("points"):
+            return {**given, "points": points_of_csv(Path(given["file"]))}
+        return given
+
+    def geometry(self, tolerance: float) -> shapely.Polygon | shapely.LineString:  # noqa: D102
+        return area_within(self.points) if self.closed else line_through(self.points)
+
+
+class Union(Shape):
+    """All that lies in any of the closed shapes ``of``.
+
+    Examples
+    --------
+    >>> ell = Union(of=[Box(lower=(0, 0), upper=(3, 1)), Box(lower=(0, 0), upper=(1, 2))])
+    >>> ell.geometry(0.01).area
+    4.0
+    """
+
+    shape: Literal["union"] = "union"
+    of: tuple["AnyShape", ...] = Field(min_length=2)
+
+    def geometry(self, tolerance: float) -> shapely.Polygon | shapely.MultiPolygon:  # noqa: D102
+        return _some(shapely.union_all([plane_area(shape, tolerance) for shape in self.of]), "union")
+
+    def _extent(self) -> float:
+        return min(shape._extent() for shape in self.of)
+
+
+class Difference(Shape):
+    """The closed shape ``of`` without the closed shapes ``minus``.
+
+    Examples
+    --------
+    >>> ring = Difference(of=Circle(centre=(0, 0), radius=2), minus=[Circle(centre=(0, 0), radius=1)])
+    >>> round(ring.geometry(0.001).area / math.pi, 9)
+    3.0
+    """
+
+    shape: Literal["difference"] = "difference"
+    of: "AnyShape"
+    minus: tuple["AnyShape", ...] = Field(min_length=1)
+
+    def geometry(self, tolerance: float) -> shapely.Polygon | shapely.MultiPolygon:  # noqa: D102
+        taken = shapely.union_all([plane_area(shape, tolerance) for shape in self.minus])
+        return _some(plane_area(self.of, tolerance).difference(taken), "difference")
+
+    def _extent(self) -> float:
+        return min(shape._extent() for shape in (self.of, *self.minus))
+
+
+class Sphere(Solid):
+    """A ball of ``radius`` around ``centre`` (3-D).
+
+    Examples
+    --------
+    >>> round(float(Sphere(centre=(0, 0, 0), radius=1).geometry(0.01).volume) / math.pi, 6)
+    1.333333
+    """
+
+    shape: Literal["sphere"] = "sphere"
+    centre: Point3
+    radius: Length
+
+    def geometry(self, tolerance: float) -> Any:  # noqa: D102
+        from trimesh.creation import icosphere
+
+        # an icosahedron's edge is about 1.1 radii, so the distance of its faces from the sphere 0.2; halving takes 1/4
+        levels = max(math.ceil(0.5 * math.log2(max(0.2 * self.radius / tolerance, 1.0))), 1)
+        mesh = icosphere(subdivisions=min(levels, 8))
+        mesh.apply_scale(self.radius * (4.0 / 3.0 * math.pi / mesh.volume) ** (1.0 / 3.0))
+        return mesh.apply_translation(self.centre)
+
+    def bounds(self) -> tuple[Array, Array]:  # noqa: D102
+        return np.subtract(self.centre, self.radius), np.add(self.centre, self.radius)
+
+    def _extent(self) -> float:
+        return 10.0 * self.radius
+
+
+class Cylinder(Solid):
+    """A circular cylinder of ``radius`` around the line from ``start`` to ``stop`` (3-D).
+
+    Examples
+    --------
+    >>> rod = Cylinder(start=(0, 0, 0), stop=(0, 0, 2), radius=1).geometry(0.01)
+    >>> round(float(rod.volume) / math.pi, 6)
+    2.0
+    """
+
+    shape: Literal["cylinder"] = "cylinder"
+    start: Point3
+    stop: Point3
+    radius: Length
+
+    def geometry(self, tolerance: float) -> Any:  # noqa: D102
+        if self.start == self.stop:
+            raise ValueError(f"start and stop of the cylinder are equal, {self.start}; give the ends of its axis")
+        from trimesh.creation import cylinder
+
+        circle = unit_circle(tolerance / self.radius)
+        return cylinder(
+            float(np.hypot(*circle[0])) * self.radius, segment=[self.start, self.stop], sections=len(circle)
+        )
+
+    def _extent(self) -> float:
+        return 10.0 * self.radius
+
+
+class Mesh(Solid):
+    """The inside of a closed triangle mesh in a file (STL, OBJ or PLY), times ``scale`` and then moved by ``offset``.
+
+    Vertices that coincide are merged, triangles without area and repeated ones left out, and all triangles turned
+    the same way. A mesh with holes is refused, since its inside is not defined.
+    """
+
+    shape: Literal["mesh"] = "mesh"
+    file: str
+    scale: Length = 1.0
+    offset: Point3 = (0.0, 0.0, 0.0)
+    sha256: str = ""
+    """hash of the file, stored with the case so that a repeated run notices a file that has changed"""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _same_file(cls, given: Any) -> Any:
+        if not isinstance(given, dict) or not isinstance(given.get("file"), str):
+            return given
+        found = digest(Path(given["file"]))
+        if given.get("sha256", found) != found:
+            raise ValueError(f"the mesh {given['file']} has changed since the case was stored; give the original file")
+        return {**given, "sha256": found}
+
+    def geometry(self, tolerance: float) -> Any:  # noqa: D102
+        mesh = closed_mesh(Path(self.file), self.sha256).copy()
+        return mesh.apply_scale(self.scale).apply_translation(self.offset)
+
+
+AnyShape = Annotated[
+    Polygon
+    | Polyline
+    | Box
+    | Circle
+    | Ellipse
+    | Arc
+    | Curve
+    | PointsFile
+    | Union
+    | Difference
+    | Sphere
+    | Cylinder
+    | Mesh,
+    Field(discriminator="shape"),
+]
+SHAPES = tuple(model.model_fields["shape"].default for model in get_args(get_args(AnyShape)[0]))
+"""names of the shapes, as in ``shape = "circle"``"""
+
+Union.model_rebuild()
+Difference.model_rebuild()
+
+
+def plane_area(shape: Shape, tolerance: float) -> shapely.Polygon | shapely.MultiPolygon:
+    """Return the area of a closed shape in the plane.
+
+    Raises
+    ------
+    ValueError: when the shape is open or a solid.
+    """
+    if shape.dimension != 2:
+        raise ValueError(
+            f"{shape.shape}: solids cannot be joined or cut here; make one mesh of them in another program"
+        )
+    area = shape.geometry(tolerance)
+    if not isinstance(area, shapely.Polygon | shapely.MultiPolygon):
+        raise ValueError(f"{shape.shape} is an open line; give a closed shape, such as a polygon, or closed = true")
+    return area
+
+
+def _some(area: Any, what: str) -> Any:
+    if area.area <= 0.0:
+        raise ValueError(f"nothing is left of the {what}; check which shapes overlap")
+    return area
 
 
 def check_box(lower: tuple[float, ...], upper: tuple[float, ...]) -> None:
@@ -58,43 +463,3 @@ def check_box(lower: tuple[float, ...], upper: tuple[float, ...]) -> None:
 def grid(axes: Sequence[Array]) -> Array:
     """Return the points (n, dim) of the grid whose coordinates along each axis are ``axes``; the last runs fastest."""
     return np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
-
-
-def lattice(region: Region, spacing: float) -> Array:
-    """Positions (n, dim) of the centres of the :func:`lattice_cell` cells that fill ``region``.
-
-    Cells are counted from the region's lower corner, so the first particle lies half a cell from a wall there. A box
-    is filled from face to face. In a polygon each row of cells is divided evenly between the edges that it meets: along
-    a leaning wall no gap is left and no particle touches it, from which pressure waves would start.
-    """
-    lower, upper = np.asarray(region.lower), np.asarray(region.upper)
-    cell = lattice_cell(region, spacing)
-    counts = np.maximum(np.rint((upper - lower) / cell).astype(int), 1)
-    axes = [low + (np.arange(count) + 0.5) * edge for low, count, edge in zip(lower, counts, cell, strict=True)]
-    if isinstance(region, BoxRegion):
-        return grid(axes)
-    rows = [np.empty((0, 2))]
-    for y in axes[1]:
-        crossings = _crossings(np.array(region.points), y)
-        for left, right in zip(crossings[::2], crossings[1::2], strict=True):
-            count = round((right - left) / spacing)
-            x = left + (np.arange(count) + 0.5) / max(count, 1) * (right - left)
-            rows.append(np.stack([x, np.full(count, y)], axis=1))
-    return np.vstack(rows)
-
-
-def _crossings(corners: Array, y: float) -> list[float]:
-    """Sorted x at which the polygon's edges cross the height ``y``; an even number of them."""
-    crossings = []
-    for (x1, y1), (x2, y2) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        if (y1 > y) != (y2 > y):
-            crossings.append(float(x1 + (y - y1) * (x2 - x1) / (y2 - y1)))
-    return sorted(crossings)
-
-
-def lattice_cell(region: Region, spacing: float) -> Array:
-    """Edges (dim,) of a lattice cell, m: ``spacing``, or in a box the nearest length of which a whole number fits."""
-    extent = np.asarray(region.upper, dtype=np.float64) - np.asarray(region.lower, dtype=np.float64)
-    if isinstance(region, BoxRegion):
-        return np.asarray(extent / np.maximum(np.rint(extent / spacing), 1.0))
-    return np.full(len(extent), spacing)

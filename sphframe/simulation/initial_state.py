@@ -72,7 +72,7 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     if scene.initial_pressure is not None:
         pressure = scene.initial_pressure(position)
     else:
-        depth = max(region.upper[-1] for region in scene.fluid) - position[:, -1]
+        depth = max(region.bounds()[1][-1] for region in scene.fluid) - position[:, -1]
         pressure = pressure_at_depth(
             depth, density, parameters.reference_density, parameters.sound_speed, parameters.gravity
         )
