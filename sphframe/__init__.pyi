@@ -1,3 +1,4 @@
+from sphframe.arrays import Array as Array
 from sphframe.boundary.operator import ParticleCloud as ParticleCloud
 from sphframe.cases import Case as Case
 from sphframe.cases import load_case as load_case

@@ -14,7 +14,7 @@ import sphframe
 
 ROOT = Path(__file__).parent.parent
 CORE = sorted((ROOT / "sphframe").rglob("*.py"))
-PUBLIC = ("sphframe", "sphframe.analysis", "sphframe.studies")
+PUBLIC = ("sphframe", "sphframe.analysis", "sphframe.cases", "sphframe.geometry", "sphframe.studies")
 PLUGINS = [path for path in sorted(ROOT.glob("plugins/*/sphframe_*/**/*.py")) if "tests" not in path.parts]
 
 

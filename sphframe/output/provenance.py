@@ -2,6 +2,7 @@
 
 import importlib.metadata
 import platform
+import sys
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
@@ -29,8 +30,11 @@ def software() -> dict[str, str]:
 
 def registered_name(case: type) -> str:
     """Return the name under which a class of cases is installed, or its address."""
-    target = f"{case.__module__}:{case.__qualname__}"
-    return next((entry.name for entry in registry.available("cases") if entry.value == target), target)
+    for entry in registry.available("cases"):
+        module, _, attribute = entry.value.partition(":")
+        if getattr(sys.modules.get(module), attribute, None) is case:
+            return entry.name
+    return f"{case.__module__}:{case.__qualname__}"
 
 
 def _chosen(case: "Case") -> Iterator[tuple[str, str]]:

@@ -35,6 +35,10 @@ DISTRIBUTIONS = {
     ("interpolators", "mls-quadratic"): "sphframe-mls",
     ("interpolators", "mdbc"): "sphframe-mdbc",
     ("interpolators", "adami"): "sphframe-adami",
+    ("rigid_bodies", "solitary-wave-paddle"): "sphframe-waves",
+    ("rigid_bodies", "regular-wave-paddle"): "sphframe-waves",
+    ("cases", "solitary-wave-fixed-wall"): "sphframe-waves",
+    ("cases", "solitary-wave-movable-wall"): "sphframe-waves",
     ("studies", "huang2019"): "sphframe-huang2019",
 }
-"""the distribution to install for the name of a method or study of this project that is missing"""
+"""the distribution to install for the name of a component of this project that is missing"""

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from sphframe.bodies import DisplacementSeries, Free, RegularWavePaddle, SolitaryWavePaddle, SpringMass
+from sphframe.bodies import DisplacementSeries, Free, SpringMass
 from sphframe.errors import InputError
 from sphframe.interfaces import RigidBody
 from sphframe.registry import create
@@ -35,9 +35,6 @@ def rising() -> list[tuple[float, float]]:
 
 def bodies(folder: Path) -> list[RigidBody]:
     return [
-        SolitaryWavePaddle(wave_height=0.15, depth=0.25),
-        SolitaryWavePaddle(wave_height=0.05, depth=0.2, theory="boussinesq"),
-        RegularWavePaddle(wave_height=0.05, period=1.2, depth=0.3),
         DisplacementSeries(series_file(folder)),
         SpringMass(mass=250.0, stiffness=10.0, threshold=215.8),
         Free(mass=40.0, inertia=1.2),
@@ -48,51 +45,6 @@ def test_every_body_keeps_the_promises_of_its_interface(tmp_path: Path) -> None:
     for body in bodies(tmp_path):
         for check in checks_of(body):
             check(body)
-
-
-@pytest.mark.parametrize("theory", ["rayleigh", "boussinesq"])
-@pytest.mark.parametrize("ratio", [0.05, 0.3, 0.6])
-def test_solitary_paddle_moves_as_the_water_under_its_wave(theory: str, ratio: float) -> None:
-    d, g = 0.25, 9.81
-    height = ratio * d
-    paddle = create("rigid_bodies", "solitary-wave-paddle", wave_height=height, depth=d, theory=theory)
-    k = math.sqrt(0.75 * height / d**2 / (d + height if theory == "rayleigh" else d))
-    c = math.sqrt(g * (d + height))
-    assert paddle.stroke == pytest.approx(2.0 * height / (k * d), rel=1e-14)
-    for time in np.linspace(0.0, 2.0 * paddle.mid_stroke_time, 23):
-        x, u, _ = at(paddle, time)
-        from_middle = x - 0.5 * paddle.stroke * math.tanh(3.8)
-        theta = k * (c * (time - paddle.mid_stroke_time) - from_middle)
-        assert from_middle == pytest.approx(height / (k * d) * math.tanh(theta), abs=1e-12)
-        eta = height / math.cosh(theta) ** 2
-        assert u == pytest.approx(c * eta / (d + eta), rel=1e-10)
-
-
-def test_solitary_paddle_starts_at_rest_and_makes_its_whole_stroke() -> None:
-    paddle = SolitaryWavePaddle(wave_height=0.15, depth=0.25)
-    x, u, a = at(paddle, 0.0)
-    assert x == pytest.approx(0.0, abs=1e-15)
-    assert u < 0.002 * paddle.speed
-    assert a < 0.2 * 9.81 / 10.0
-    assert at(paddle, 100.0) == pytest.approx((paddle.stroke, 0.0, 0.0), rel=1e-3)
-    assert at(paddle, paddle.mid_stroke_time)[0] == pytest.approx(0.5 * paddle.stroke, rel=2e-3)
-    assert at(paddle, -1.0) == (0.0, 0.0, 0.0)
-
-
-def test_regular_paddle_satisfies_dispersion_and_biesel() -> None:
-    h, period, d, g = 0.05, 1.2, 0.3, 9.81
-    paddle = RegularWavePaddle(wave_height=h, period=period, depth=d)
-    kd = paddle.wavenumber * d
-    assert g * paddle.wavenumber * math.tanh(kd) == pytest.approx((2 * math.pi / period) ** 2, rel=1e-12)
-    assert h / paddle.stroke == pytest.approx(2 * (math.cosh(2 * kd) - 1) / (math.sinh(2 * kd) + 2 * kd), rel=1e-12)
-    quarter = 0.25 * period + 5.0 * period
-    assert at(paddle, quarter)[0] == pytest.approx(0.5 * paddle.stroke, rel=1e-12)
-    assert at(paddle, 0.0) == (0.0, 0.0, 0.0)
-
-
-def test_regular_paddle_in_deep_water_has_half_the_wave_height_as_stroke() -> None:
-    paddle = RegularWavePaddle(wave_height=0.1, period=0.5, depth=20.0)
-    assert paddle.stroke == pytest.approx(0.05, rel=1e-9)
 
 
 def test_series_goes_through_its_points_and_rests_outside(tmp_path: Path) -> None:
@@ -137,9 +89,6 @@ def test_missing_series_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "options", "message"),
     [
-        ("solitary-wave-paddle", {"wave_height": -1.0, "depth": 0.25}, "wave_height = -1.0 must be positive"),
-        ("solitary-wave-paddle", {"wave_height": 0.1, "depth": 0.25, "theory": "stokes"}, "'rayleigh' or 'boussinesq'"),
-        ("regular-wave-paddle", {"wave_height": 0.1, "depth": 0.25, "period": 0.0}, "period = 0.0 must be positive"),
         ("spring-mass", {"mass": 0.0, "stiffness": 1.0}, "mass = 0.0 must be positive"),
         ("spring-mass", {"mass": 1.0, "stiffness": -1.0}, "stiffness = -1.0 must not be negative"),
         ("free", {"mass": 1.0, "inertia": 0.0}, "inertia = 0.0 must be positive"),

@@ -227,18 +227,22 @@ class TestUnknownNames:
         assert "module:attribute" in message
 
     @pytest.mark.parametrize(
-        ("name", "meant", "distribution"),
+        ("kind", "name", "meant", "distribution"),
         [
-            ("improved-shepard", "improved-shepard", "sphframe-shepard"),
-            ("improved_shepherd", "improved-shepard", "sphframe-shepard"),
-            ("normalised", "normalized", "sphframe-normalized"),
-            ("SFDI", "sfdi", "sphframe-sfdi"),
-            ("mls-quadratc", "mls-quadratic", "sphframe-mls"),
+            ("interpolators", "improved-shepard", "improved-shepard", "sphframe-shepard"),
+            ("interpolators", "improved_shepherd", "improved-shepard", "sphframe-shepard"),
+            ("interpolators", "normalised", "normalized", "sphframe-normalized"),
+            ("interpolators", "SFDI", "sfdi", "sphframe-sfdi"),
+            ("interpolators", "mls-quadratc", "mls-quadratic", "sphframe-mls"),
+            ("cases", "solitary-wave-fixed-wal", "solitary-wave-fixed-wall", "sphframe-waves"),
+            ("cases", "solitary-wave-movable-wall", "solitary-wave-movable-wall", "sphframe-waves"),
+            ("rigid_bodies", "solitary-wave-paddle", "solitary-wave-paddle", "sphframe-waves"),
+            ("rigid_bodies", "regular_wave_paddle", "regular-wave-paddle", "sphframe-waves"),
         ],
     )
-    def test_what_the_project_offers_comes_with_its_pip_line(self, name: str, meant: str, distribution: str):
+    def test_what_the_project_offers_comes_with_its_pip_line(self, kind: str, name: str, meant: str, distribution: str):
         with pytest.raises(errors.UnknownComponentError) as info:
-            registry.load("interpolators", name)
+            registry.load(kind, name)
         message = str(info.value)
         assert f"{meant!r} is not installed; to get it: python -m pip install {distribution}\n" in message
         assert ("did you mean" in message) == (name != meant)

@@ -1,4 +1,4 @@
-"""Cases: what the solitary-wave flumes have in common."""
+"""What the solitary-wave flumes have in common."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -7,19 +7,16 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from sphframe.arrays import Array
-from sphframe.bodies import SolitaryWavePaddle
-from sphframe.cases.case import Case
-from sphframe.cases.parameters import Derived, quantity, with_default
-from sphframe.cases.scene import Diagnostic, Gauge, Probe, Scene
+from sphframe import Array, Case, RigidBody
+from sphframe.cases import Derived, Diagnostic, Fields, Gauge, Probe, Scene, quantity, with_default
 from sphframe.geometry import PolygonRegion, PolygonWall
-from sphframe.interfaces import Fields, RigidBody
+from sphframe_waves.solitary_wave_paddle import SolitaryWavePaddle
 
 
 class SolitaryWaveFlume(Case):
     """A flume with a piston at its left end and a seawall at its right end, in two dimensions.
 
-    The paddle starts at t = 0 by the convention of :class:`sphframe.bodies.SolitaryWavePaddle`, at x = 0 or up to half
+    The paddle starts at t = 0 by the convention of :class:`sphframe_waves.SolitaryWavePaddle`, at x = 0 or up to half
     a particle spacing from it, so that a whole number of particles fits between it and the seawall, which rises from
     the bed at x = ``tank_length``. In addition to what every case records, the output holds
     ``gauge_elevation`` at gauges G1, G2, ... along the flume, ``probe_pressure`` at P0, P1, ... on the seawall, and the

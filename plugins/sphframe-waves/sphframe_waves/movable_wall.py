@@ -1,14 +1,13 @@
-"""Cases: a solitary wave against a seawall on a spring."""
+"""A solitary wave against a seawall on a spring."""
 
 import math
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
-from sphframe.bodies import SpringMass
-from sphframe.cases.parameters import Derived, quantity, with_default
-from sphframe.cases.scene import Scene
-from sphframe.cases.solitary_wave import SolitaryWaveFlume
+from sphframe import create
+from sphframe.cases import Derived, Scene, quantity, with_default
 from sphframe.geometry import PolygonWall
+from sphframe_waves.flume import SolitaryWaveFlume
 
 
 class SolitaryWaveMovableWall(SolitaryWaveFlume):
@@ -16,7 +15,7 @@ class SolitaryWaveMovableWall(SolitaryWaveFlume):
 
     The seawall is the body ``seawall``, whose displacement ``body_position`` starts at zero, and the wall of that name,
     with its ``wall_force``. It stands still until the force exceeds ``threshold_ratio`` times the hydrostatic force
-    rho g d^2 / 2 (:class:`sphframe.bodies.SpringMass`). The bed continues behind it. Probe P0 lies on the bed at the
+    rho g d^2 / 2 (the body ``spring-mass``). The bed continues behind it. Probe P0 lies on the bed at the
     toe of the wall where it is drawn; probes do not move.
 
     Departs from the paper, which does not give the wave's height: 0.3 d by default, with which the wall begins to move
@@ -65,7 +64,9 @@ class SolitaryWaveMovableWall(SolitaryWaveFlume):
     def scene(self) -> Scene:
         """Draw the flume."""
         length = self.tank_length
-        wall = SpringMass(
+        wall = create(
+            "rigid_bodies",
+            "spring-mass",
             mass=self.wall_mass,
             stiffness=self.spring_stiffness,
             threshold=self.threshold_ratio * 0.5 * self.reference_density * self.gravity * self.depth**2,

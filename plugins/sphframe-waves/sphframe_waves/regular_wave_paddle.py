@@ -1,4 +1,4 @@
-"""Bodies: a piston that makes regular waves."""
+"""A piston that makes regular waves."""
 
 import math
 from dataclasses import dataclass
@@ -7,8 +7,7 @@ from typing import final
 import numpy as np
 from scipy.optimize import brentq
 
-from sphframe.arrays import Array
-from sphframe.interfaces.rigid_body import Motion, RigidBody
+from sphframe import Array, Motion, RigidBody
 
 
 @final

@@ -1,13 +1,12 @@
-"""Cases: a solitary wave against a fixed seawall."""
+"""A solitary wave against a fixed seawall."""
 
 import math
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
-from sphframe.cases.parameters import quantity
-from sphframe.cases.scene import Scene
-from sphframe.cases.solitary_wave import SolitaryWaveFlume
+from sphframe.cases import Scene, quantity
 from sphframe.geometry import PolygonWall
+from sphframe_waves.flume import SolitaryWaveFlume
 
 
 class SolitaryWaveFixedWall(SolitaryWaveFlume):
@@ -24,7 +23,7 @@ class SolitaryWaveFixedWall(SolitaryWaveFlume):
     --------
     The preset's flume holds the paper's 25,180 particles; the wave comes to x = 10 m after 5.95 s:
 
-    >>> from sphframe.cases import load_case
+    >>> from sphframe import load_case
     >>> from sphframe.geometry import lattice
     >>> case = load_case("solitary-wave-fixed-wall", "paper")
     >>> len(lattice(case.scene().fluid[0], case.particle_spacing)), round(case.paddle().arrival_time(10.0), 2)

@@ -1,4 +1,4 @@
-"""Bodies: a piston that makes a solitary wave."""
+"""A piston that makes a solitary wave."""
 
 import math
 from dataclasses import dataclass
@@ -6,8 +6,7 @@ from typing import Literal, final
 
 import numpy as np
 
-from sphframe.arrays import Array
-from sphframe.interfaces.rigid_body import Motion, RigidBody
+from sphframe import Array, Motion, RigidBody
 
 _LEAD = 3.8
 """phase at the start: the wave's elevation at the paddle is then A sech^2(3.8) = 0.002 A"""
