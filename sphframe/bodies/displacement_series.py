@@ -1,15 +1,31 @@
 """Bodies: a body that follows a measured displacement."""
 
-from dataclasses import dataclass
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import final
+from typing import Any, Literal, final
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
+from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
 
 from sphframe.arrays import Array
 from sphframe.errors import InputError
 from sphframe.interfaces.rigid_body import Motion, RigidBody
+
+_LENGTHS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
+_ANGLES = {"rad": 1.0, "deg": math.pi / 180.0}
+_UNITS: dict[str, dict[str, float]] = {
+    "time": {"s": 1.0, "ms": 0.001, "min": 60.0},
+    **dict.fromkeys(("x", "y", "z"), _LENGTHS),
+    **dict.fromkeys(("angle", "rx", "ry", "rz"), _ANGLES),
+}
+"""what each column may hold, with the factors from its units to SI units"""
+_COORDINATES = {"x": 0, "y": 1, "z": 2, "angle": 2, "rx": 3, "ry": 4, "rz": 5}
+_DEFAULT = (("time", "s"), ("x", "m"), ("y", "m"))
+_SEPARATOR = re.compile(r"\s*,\s*|[\s;]+")
+_DECLARATION = re.compile(r"\s*(\w+)\s*[(\[]\s*(\w+)\s*[)\]]\s*")
 
 
 @final
@@ -17,61 +33,149 @@ from sphframe.interfaces.rigid_body import Motion, RigidBody
 class DisplacementSeries(RigidBody):
     """A body that follows the displacement in a file.
 
-    The file holds numbers in columns, separated by commas or blanks, ``#`` before comments: time (s), x (m) and,
-    optionally, y (m) and angle (rad) in 2-D or y and z (m) in 3-D. A quintic spline goes through all of them,
-    so that velocity and acceleration are smooth; it begins and ends at rest, and the body rests outside the series.
-    The displacement is measured from the first line, where the body is drawn.
+    The file holds one line for each time: numbers with decimal points, separated by commas, semicolons or blanks, ``#``
+    before comments. The displacement is measured from the first line, where the body is drawn. The body is at rest
+    before the first and after the last line.
 
     Attributes
     ----------
-    path: of the file.
+    path: of the file; a case file looks for it in its own folder first.
     centre: of rotation, m.
+    interpolation: between the lines, never beyond two neighbouring values, and at rest where these are equal.
+
+        ``"monotone"``: cubic Hermite polynomials with the slopes of Fritsch and Butland (PCHIP), zero at both ends.
+        The velocity is continuous; the acceleration, and with it the pressure on the wall, is linear between the times
+        of the file and jumps at them, by less the denser they are.
+
+        ``"linear"``: the velocity is constant between the times and jumps at them, without an impulse on the fluid's
+        pressure: the acceleration is taken as zero.
+    columns: what the columns hold, in their order, with their units, such as ``{time = "s", x = "mm", angle = "deg"}``.
+        Names: time; x, y, z; angle (2-D); rx, ry, rz (3-D), a rotation vector, see :class:`Motion`. Units: s, ms, min;
+        m, cm, mm; rad, deg. By default those of a comment ``# time (s), x (m)`` above the numbers, or else time, x and
+        y in SI units.
+    contents: text of the file. It is read from ``path`` when a case is loaded, and kept with the case in the output
+        file, so that a resumed or repeated run moves as the first one did even if the file has changed since.
 
     Raises
     ------
-    InputError: when the file cannot be read, has fewer than 6 lines or other than 2 to 4 columns, or its times do not
-        increase.
+    InputError: when the file cannot be read, is not such a table, or its times do not increase.
+
+    Source: F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984), doi:10.1137/0905021.
     """
 
-    path: Path
+    path: Path | None = None
     centre: tuple[float, ...] = (0.0, 0.0)
+    interpolation: Literal["monotone", "linear"] = "monotone"
+    columns: dict[str, str] | None = None
+    contents: str | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
-        series = _read(Path(self.path))
-        time, displacement = series[:, 0], np.zeros((len(series), 3))
-        displacement[:, : series.shape[1] - 1] = series[:, 1:] - series[0, 1:]
-        at_rest = [(1, np.zeros(3)), (2, np.zeros(3))]
-        spline = make_interp_spline(time, displacement, k=5, bc_type=(at_rest, at_rest))
-        object.__setattr__(self, "_splines", (spline, spline.derivative(1), spline.derivative(2)))
-        object.__setattr__(self, "_span", (float(time[0]), float(time[-1])))
+        if self.path is None and self.contents is None:
+            raise InputError("a displacement series needs a path, the file with its numbers")
+        if self.interpolation not in ("monotone", "linear"):
+            raise InputError(f"interpolation = {self.interpolation!r} must be 'monotone' or 'linear'")
+        name = str(self.path or "contents")
+        text = _read(Path(str(self.path))) if self.contents is None else self.contents
+        table, header = _table(name, text)
+        time, displacement = _in_si_units(name, table, self.columns or header or _default_columns(name, table))
+        object.__setattr__(self, "_pieces", _interpolated(time, displacement, self.interpolation))
+
+    @classmethod
+    def with_contents(cls, options: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+        """Return ``options`` with the text of the file at ``path``, which is looked for in ``folder`` first."""
+        if options.get("contents") is not None or not isinstance(options.get("path"), str | Path):
+            return dict(options)
+        path = Path(options["path"])
+        return {**options, "contents": _read(folder / path if (folder / path).is_file() else path)}
 
     def motion(self, time: float, position: Array, velocity: Array, load: Array) -> Motion:
-        """Return the motion of the series at ``time``."""
-        first, last = vars(self)["_span"]
-        x, u, a = (np.asarray(part(min(max(time, first), last))) for part in vars(self)["_splines"])
-        if not first <= time <= last:
-            u, a = np.zeros(3), np.zeros(3)
-        return Motion(x, u, a)
+        """Return the motion of the series at ``time``; the three coordinates of the plane, or six in space."""
+        pieces: tuple[PPoly, PPoly, PPoly] = vars(self)["_pieces"]
+        first, last = pieces[0].x[[0, -1]]
+        inside = 1.0 if first <= time < last else 0.0
+        x, u, a = (np.array(piece(min(max(time, first), last)))[: len(position)] for piece in pieces)
+        return Motion(x, inside * u, inside * a)
 
 
-def _read(path: Path) -> Array:
+def _read(path: Path) -> str:
     try:
-        text = path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
     except (OSError, ValueError) as error:
         raise InputError(f"cannot read the displacement series {path}: {error}") from None
-    lines = [line.partition("#")[0].replace(",", " ").split() for line in text.splitlines()]
-    rows = [row for row in lines if row]
-    widths = {len(row) for row in rows}
-    try:
-        series = np.array([[float(cell) for cell in row] for row in rows]) if len(widths) == 1 else None
-    except ValueError as error:
-        raise InputError(f"{path}: {error}; put '#' before lines that are not numbers") from None
-    if series is None or series.shape[1] not in (2, 3, 4):
-        raise InputError(f"{path}: lines of {sorted(widths)} columns; expected time and 1 to 3 displacements in each")
-    if len(series) < 6:
-        raise InputError(f"{path}: {len(series)} lines; a smooth motion needs 6 or more")
-    if not np.all(np.isfinite(series)):
-        raise InputError(f"{path}: a number is not finite; leave its line out")
-    if not np.all(np.diff(series[:, 0]) > 0.0):
-        raise InputError(f"{path}: the times in the first column must increase from line to line")
-    return series
+
+
+def _table(name: str, text: str) -> tuple[Array, dict[str, str] | None]:
+    """Return the numbers of a file, and its columns with their units if a comment above the numbers declares them."""
+    rows: list[list[float]] = []
+    header = None
+    for number, line in enumerate(text.lstrip("\ufeff").splitlines(), 1):
+        content, _, comment = line.partition("#")
+        content = content.strip().rstrip(",;")
+        if not content:
+            found = [_DECLARATION.fullmatch(part) for part in comment.split(",")]
+            if not rows and all(found):
+                header = {match[1]: match[2] for match in found if match}
+            continue
+        if re.search(r"\d,\d", content) and re.search(r"[^\s,;][\s;]+[^\s,;]", content):
+            raise InputError(
+                f"{name}, line {number}: {content!r} has commas within its columns; write numbers with decimal points"
+            )
+        try:
+            rows.append([float(cell) for cell in _SEPARATOR.split(content)])
+        except ValueError as error:
+            raise InputError(f"{name}, line {number}: {error}; put '#' before lines that are not numbers") from None
+        if len(rows[-1]) != len(rows[0]):
+            raise InputError(f"{name}, line {number}: {len(rows[-1])} columns; expected {len(rows[0])} as above it")
+    if len(rows) < 2:
+        raise InputError(f"{name}: {len(rows)} lines of numbers; a motion needs 2 or more")
+    return np.array(rows), header
+
+
+def _default_columns(name: str, table: Array) -> dict[str, str]:
+    width = table.shape[1]
+    if width not in (2, 3):
+        raise InputError(
+            f"{name} has {width} columns and does not say what they hold; write a comment above the numbers, such as"
+            ' "# time (s), x (m), y (m), angle (rad)", or give the option columns = {time = "s", x = "m", ...}'
+        )
+    return dict(_DEFAULT[:width])
+
+
+def _in_si_units(name: str, table: Array, columns: Mapping[str, str]) -> tuple[Array, Array]:
+    """Return times (n,) in s and displacements (n, 6) from the first line, in m and rad."""
+    for column, unit in columns.items():
+        if column not in _UNITS or unit not in _UNITS[column]:
+            known = ", ".join(_UNITS.get(column, _UNITS))
+            what = f"unit {unit!r} of column {column!r}" if column in _UNITS else f"column {column!r}"
+            raise InputError(f"{name}: {what} is not known; choose one of {known}")
+    if "time" not in columns or len(columns) != table.shape[1]:
+        raise InputError(
+            f"{name}: {table.shape[1]} columns of numbers, but the declared ones are {', '.join(columns)}; declare"
+            " every column once, one of them time"
+        )
+    if "angle" in columns and columns.keys() & {"z", "rx", "ry", "rz"}:
+        raise InputError(f"{name}: angle belongs to two dimensions, z, rx, ry and rz to three; declare one kind")
+    time, displacement = np.empty(0), np.zeros((len(table), 6))
+    for values, (column, unit) in zip(table.T, columns.items(), strict=True):
+        scaled = values * _UNITS[column][unit]
+        if column == "time":
+            time = scaled
+        else:
+            displacement[:, _COORDINATES[column]] = scaled - scaled[0]
+    if not np.all(np.isfinite(table)):
+        raise InputError(f"{name}: a number is not finite; leave its line out")
+    if not np.all(np.diff(time) > 0.0):
+        raise InputError(f"{name}: the times must increase from line to line")
+    return time, displacement
+
+
+def _interpolated(time: Array, displacement: Array, interpolation: str) -> Sequence[PPoly]:
+    """Return position, velocity and acceleration as piecewise polynomials."""
+    if interpolation == "linear":
+        slopes = np.diff(displacement, axis=0) / np.diff(time)[:, None]
+        position = PPoly(np.array([slopes, displacement[:-1]]), time)
+        return position, position.derivative(), PPoly(np.zeros((1, *slopes.shape)), time)
+    slopes = PchipInterpolator(time, displacement).derivative()(time)
+    slopes[[0, -1]] = 0.0
+    position = CubicHermiteSpline(time, displacement, slopes)
+    return position, position.derivative(), position.derivative(2)

@@ -67,8 +67,21 @@ def load_case(
         model, parameters = load("cases", str(source)), {}
     parameters = {**parameters, **_preset(model, preset)}
     case: Case = model(**_merged(model, parameters, overrides or {}))
+    case = _with_contents(case, Path(source).parent if isinstance(source, str | Path) else Path())
     check_case(case)
     return case
+
+
+def _with_contents(case: Case, folder: Path) -> Case:
+    """Return the case with the contents of the files that its bodies read; ``folder`` is that of the case file."""
+    bodies = getattr(case, "bodies", None)
+    if not isinstance(bodies, Mapping) or not all(isinstance(body, Component) for body in bodies.values()):
+        return case
+    complete = {
+        name: Component(name=body.name, options=load("rigid_bodies", body.name).with_contents(body.options, folder))
+        for name, body in bodies.items()
+    }
+    return case.model_copy(update={"bodies": complete}) if complete else case
 
 
 def read_toml(path: str | Path) -> tuple[str, str | None, dict[str, Any]]:

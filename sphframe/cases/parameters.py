@@ -1,5 +1,6 @@
 """Cases: how a parameter is declared, with its unit and meaning, and how its value is written."""
 
+import hashlib
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -76,7 +77,7 @@ def written(value: Any) -> str:
     if isinstance(value, Derived):
         return value.text
     if isinstance(value, Component):
-        table = value.model_dump()
+        table = {name: _shortened(option) for name, option in value.model_dump().items()}
         return value.name if len(table) == 1 else str(table)
     if isinstance(value, BaseModel):
         return ", ".join(f"{name} = {written(inner)}" for name, inner in value)
@@ -84,4 +85,13 @@ def written(value: Any) -> str:
         return "(automatic)"
     if isinstance(value, tuple | dict) and not value:
         return "(none)"
+    if isinstance(value, dict):
+        return ", ".join(f"{name} = {written(inner)}" for name, inner in value.items())
     return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _shortened(option: Any) -> Any:
+    """Return an option as it is; for a long text, such as the contents of a file, its length and hash."""
+    if not isinstance(option, str) or len(option) <= 100:
+        return option
+    return f"{len(option)} characters, sha256 {hashlib.sha256(option.encode()).hexdigest()[:16]}"

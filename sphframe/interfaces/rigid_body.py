@@ -1,7 +1,9 @@
 """Interfaces: the motion of a rigid body that carries walls."""
 
 from abc import ABC, abstractmethod
-from typing import ClassVar, NamedTuple
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, ClassVar, NamedTuple
 
 from sphframe.arrays import Array
 
@@ -26,6 +28,15 @@ class RigidBody(ABC):
 
     centre: tuple[float, ...] = (0.0, 0.0)
     """initial centre of rotation, m; angles and moments refer to it"""
+
+    @classmethod
+    def with_contents(cls, options: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+        """Return the body's ``options`` complete with the contents of the files that they name.
+
+        A case is kept in its output file with these options, so that the run can be repeated without those files.
+        By default a body reads no file. ``folder`` is that of the case file.
+        """
+        return dict(options)
 
     @abstractmethod
     def motion(self, time: float, position: Array, velocity: Array, load: Array) -> Motion:

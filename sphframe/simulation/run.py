@@ -108,7 +108,7 @@ def prepare_resume(
     if complete:
         raise InputError(f"{output} is of a complete run: nothing is left to resume; open it, or run it again")
     checkpoint = read_checkpoint(checkpoint_path(output))
-    ready = case or load_case(output, trusted=trusted)
+    ready = load_case(case or output, trusted=trusted)
     if json.loads(parameters) != ready.model_dump(mode="json"):
         raise InputError(f"{output} was begun with other parameters than those of the given case: resume it with those")
     changes = changed_versions(checkpoint, ready)
