@@ -20,10 +20,7 @@ def at(body: RigidBody, time: float) -> tuple[float, float, float]:
 
 
 def bodies() -> list[RigidBody]:
-    return [
-        SpringMass(mass=250.0, stiffness=10.0, threshold=215.8),
-        Free(mass=40.0, inertia=1.2),
-    ]
+    return [SpringMass(mass=250.0, stiffness=10.0, threshold=215.8), Free(mass=40.0, inertia=1.2)]
 
 
 def test_every_body_keeps_the_promises_of_its_interface() -> None:
