@@ -5,14 +5,14 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal, final
+from typing import Any, ClassVar, Literal, final
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
 
 from sphframe.arrays import Array
 from sphframe.errors import InputError
-from sphframe.interfaces.rigid_body import Motion, RigidBody
+from sphframe.interfaces.rigid_body import Motion, RigidBody, Surroundings
 
 _LENGTHS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
 _ANGLES = {"rad": 1.0, "deg": math.pi / 180.0}
@@ -50,7 +50,7 @@ class DisplacementSeries(RigidBody):
         ``"linear"``: the velocity is constant between the times and jumps at them, without an impulse on the fluid's
         pressure: the acceleration is taken as zero.
     columns: what the columns hold, in their order, with their units, such as ``{time = "s", x = "mm", angle = "deg"}``.
-        Names: time; x, y, z; angle (2-D); rx, ry, rz (3-D), a rotation vector, see :class:`Motion`. Units: s, ms, min;
+        Names: time; x, y, z; angle (2-D); one of rx, ry, rz (3-D). Units: s, ms, min;
         m, cm, mm; rad, deg. By default those of a comment ``# time (s), x (m)`` above the numbers, or else time, x and
         y in SI units.
     contents: text of the file. It is read from ``path`` when a case is loaded, and kept with the case in the output
@@ -69,6 +69,8 @@ class DisplacementSeries(RigidBody):
     columns: dict[str, str] | None = None
     contents: str | None = field(default=None, repr=False)
 
+    rotates_in_3d: ClassVar[bool] = True
+
     def __post_init__(self) -> None:
         if self.path is None and self.contents is None:
             raise InputError("a displacement series needs a path, the file with its numbers")
@@ -77,7 +79,9 @@ class DisplacementSeries(RigidBody):
         name = str(self.path or "contents")
         text = _read(Path(str(self.path))) if self.contents is None else self.contents
         table, header = _table(name, text)
-        time, displacement = _in_si_units(name, table, self.columns or header or _default_columns(name, table))
+        columns = self.columns or header or _default_columns(name, table)
+        time, displacement = _in_si_units(name, table, columns)
+        object.__setattr__(self, "_names", columns.keys() & _COORDINATES)
         object.__setattr__(self, "_pieces", _interpolated(time, displacement, self.interpolation))
 
     @classmethod
@@ -87,6 +91,13 @@ class DisplacementSeries(RigidBody):
             return dict(options)
         path = Path(options["path"])
         return {**options, "contents": _read(folder / path if (folder / path).is_file() else path)}
+
+    def placed(self, surroundings: Surroundings) -> "DisplacementSeries":
+        """Return the body, whose columns must be those of the dimension."""
+        misplaced = vars(self)["_names"] & ({"z", "rx", "ry", "rz"} if surroundings.dimension == 2 else {"angle"})
+        if misplaced:
+            raise InputError(f"{', '.join(sorted(misplaced))}: no coordinate in {surroundings.dimension}-D")
+        return self
 
     def motion(self, time: float, position: Array, velocity: Array, load: Array) -> Motion:
         """Return the motion of the series at ``time``; the three coordinates of the plane, or six in space."""
@@ -156,6 +167,8 @@ def _in_si_units(name: str, table: Array, columns: Mapping[str, str]) -> tuple[A
     if "angle" in columns and columns.keys() & {"z", "rx", "ry", "rz"}:
         raise InputError(f"{name}: angle belongs to two dimensions, z, rx, ry and rz to three; declare one kind")
     time, displacement = np.empty(0), np.zeros((len(table), 6))
+    if len(columns.keys() & {"rx", "ry", "rz"}) > 1:
+        raise InputError(f"{name}: a series turns about one axis; declare one of rx, ry and rz")
     for values, (column, unit) in zip(table.T, columns.items(), strict=True):
         scaled = values * _UNITS[column][unit]
         if column == "time":

@@ -15,7 +15,7 @@ from sphframe.interfaces.rigid_body import Motion, RigidBody
 class Prescribed(RigidBody):
     """A body moved by ``function``: time (s) -> displacement, velocity and acceleration in generalised coordinates.
 
-    Each is a sequence of three numbers as in :class:`Motion`; the three must be consistent derivatives.
+    Each is a sequence of three numbers, or of six in 3-D, as in :class:`Motion`; the three must be consistent.
     """
 
     function: Callable[[float], tuple[object, object, object]]

@@ -7,7 +7,7 @@ import numpy as np
 from sphframe.arrays import Array, IntArray
 from sphframe.boundary.corners import Corners
 from sphframe.boundary.movement import move_ghosts
-from sphframe.geometry import BoxWall, PolygonWall, wall_ghosts
+from sphframe.geometry import BoxWall, PolygonWall, rotation_matrix, wall_ghosts
 from sphframe.interfaces import EvaluationPoint, Motion, RigidBody, Status
 
 _STATE = ("position", "mirror", "reflection", "velocity", "acceleration", "driving", "statuses")
@@ -77,11 +77,12 @@ class Boundary:
         """
         if len(motions):
             position = np.array([motion.position for motion in motions])
+            rotations = np.array([rotation_matrix(turned[3:]) for turned in position if self.dim == 3])
             velocity = np.array([motion.velocity for motion in motions])
             acceleration = np.array([motion.acceleration for motion in motions])
             move_ghosts(
                 self._drawn.position, self._drawn.mirror, self._drawn_reflection, self.body, self.centres,
-                position, velocity, acceleration,
+                position, velocity, acceleration, rotations.reshape(-1, 3, 3),
                 self.position, self.mirror, self.reflection, self.velocity, self.acceleration,
             )  # fmt: skip
             if self.points is not self.position:

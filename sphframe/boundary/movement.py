@@ -2,9 +2,10 @@
 
 ::
 
-    x = c + X + R(angle) (x0 - c),    u = U + omega x r,    a = A + alpha x r - omega^2 r,    r = x - c - X
+    x = c + X + R (x0 - c),    u = U + omega x r,    a = A + alpha x r + omega x (omega x r),    r = x - c - X
 
-with the body's centre c as drawn, displacement X and, in 2-D, its angle. The reflection matrices turn with the body.
+with the body's centre c as drawn, its displacement X and its rotation R. The reflection matrices S turn with the body,
+R S R^T.
 """
 
 import math
@@ -18,14 +19,21 @@ def _turned(x, y, cos, sin):  # type: ignore[no-untyped-def]
     return cos * x - sin * y, sin * x + cos * y
 
 
+@numba.njit(inline="always")
+def _cross(a, x, y, z):  # type: ignore[no-untyped-def]
+    """Return the cross product of the last three of ``a`` (6,) with (x, y, z)."""
+    return a[4] * z - a[5] * y, a[5] * x - a[3] * z, a[3] * y - a[4] * x
+
+
 @numba.njit(cache=True, error_model="numpy")
 def move_ghosts(  # type: ignore[no-untyped-def]
-    drawn, drawn_mirror, drawn_reflection, ghost_body, centres, positions, velocities, accelerations,
+    drawn, drawn_mirror, drawn_reflection, ghost_body, centres, positions, velocities, accelerations, rotations,
     position, mirror, reflection, velocity, acceleration,
 ):  # fmt: skip
     """Write the last five arrays for ghosts whose ``ghost_body`` is not -1.
 
-    ``positions``, ``velocities``, ``accelerations`` (bodies, 3) are generalised coordinates.
+    ``positions``, ``velocities``, ``accelerations`` (bodies, 3 or 6) are generalised coordinates; ``rotations``
+    (bodies, 3, 3) the rotation matrices in 3-D.
     """
     dim = drawn.shape[1]
     for g in range(drawn.shape[0]):
@@ -58,8 +66,28 @@ def move_ghosts(  # type: ignore[no-untyped-def]
             reflection[g, 0, 1] = cos * sin * (sxx - syy) + (cos * cos - sin * sin) * sxy
             reflection[g, 1, 0] = reflection[g, 0, 1]
         else:
+            turn = rotations[b]
             for k in range(3):
-                position[g, k] = drawn[g, k] + positions[b, k]
-                mirror[g, k] = drawn_mirror[g, k] + positions[b, k]
-                velocity[g, k] = velocities[b, k]
-                acceleration[g, k] = accelerations[b, k]
+                position[g, k] = centres[b, k] + positions[b, k]
+                mirror[g, k] = centres[b, k] + positions[b, k]
+                for m in range(3):
+                    position[g, k] += turn[k, m] * (drawn[g, m] - centres[b, m])
+                    mirror[g, k] += turn[k, m] * (drawn_mirror[g, m] - centres[b, m])
+                for m in range(3):
+                    total = 0.0
+                    for p in range(3):
+                        for q in range(3):
+                            total += turn[k, p] * drawn_reflection[g, p, q] * turn[m, q]
+                    reflection[g, k, m] = total
+            rx = 0.5 * (position[g, 0] + mirror[g, 0]) - centres[b, 0] - positions[b, 0]
+            ry = 0.5 * (position[g, 1] + mirror[g, 1]) - centres[b, 1] - positions[b, 1]
+            rz = 0.5 * (position[g, 2] + mirror[g, 2]) - centres[b, 2] - positions[b, 2]
+            ux, uy, uz = _cross(velocities[b], rx, ry, rz)
+            ax, ay, az = _cross(accelerations[b], rx, ry, rz)
+            cx, cy, cz = _cross(velocities[b], ux, uy, uz)
+            velocity[g, 0] = velocities[b, 0] + ux
+            velocity[g, 1] = velocities[b, 1] + uy
+            velocity[g, 2] = velocities[b, 2] + uz
+            acceleration[g, 0] = accelerations[b, 0] + ax + cx
+            acceleration[g, 1] = accelerations[b, 1] + ay + cy
+            acceleration[g, 2] = accelerations[b, 2] + az + cz

@@ -9,6 +9,7 @@ import numpy as np
 
 from sphframe.cases.case import Case
 from sphframe.cases.parameters import Component
+from sphframe.cases.placement import placed_scene
 from sphframe.cases.scene import Scene
 from sphframe.errors import InputError, SphframeError
 from sphframe.geometry import Region, lattice
@@ -43,7 +44,7 @@ def check_case(case: Case) -> None:
     errors = _component_errors(case)
     if not errors:
         try:
-            scene = case.scene()
+            scene = placed_scene(case)
         except SphframeError as error:
             errors.append(error)
         else:

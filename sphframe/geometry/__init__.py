@@ -1,7 +1,7 @@
 """Geometry: walls and regions, and the particles, ghosts, mirror points and panels that are placed on them."""
 
 from sphframe.geometry.curves import sampled
-from sphframe.geometry.frames import directions_to_world, to_body_frame, to_world
+from sphframe.geometry.frames import directions_to_world, rotation_matrix, to_body_frame, to_world, turned
 from sphframe.geometry.ghosts import GhostPoints, wall_ghosts
 from sphframe.geometry.panels import Panels, wall_panels
 from sphframe.geometry.regions import BoxRegion, PolygonRegion, Region, lattice, lattice_cell
@@ -23,6 +23,7 @@ from sphframe.geometry.shapes import (
     Sphere,
     Union,
 )
+from sphframe.geometry.solids import solid_of, solid_within
 from sphframe.geometry.walls import BoxWall, PolygonWall, Wall
 
 __all__ = [
@@ -53,9 +54,13 @@ __all__ = [
     "directions_to_world",
     "lattice",
     "lattice_cell",
+    "rotation_matrix",
     "sampled",
+    "solid_of",
+    "solid_within",
     "to_body_frame",
     "to_world",
+    "turned",
     "wall_ghosts",
     "wall_panels",
 ]

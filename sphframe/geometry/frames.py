@@ -2,15 +2,18 @@
 
 ::
 
-    x = c + X + R(angle) (x0 - c),        R = [[cos, -sin], [sin, cos]]
+    x = c + X + R (x0 - c),        R = [[cos, -sin], [sin, cos]] in 2-D
 
-with the body's centre c as drawn, its displacement X and, in 2-D, its rotation by the angle about the centre.
+with the body's centre c as drawn, its displacement X and its rotation R about the centre, by an angle in 2-D and by a
+rotation vector in 3-D.
 
-In each function, ``motion_position`` (3,) is the body's position in generalised coordinates: ``(x, y, angle)`` in
-(m, m, rad) in 2-D, ``(x, y, z)`` in m in 3-D, where bodies do not rotate. ``centre`` (dim,) is in m.
+In each function, ``motion_position`` is the body's position in generalised coordinates, see
+:class:`~sphframe.interfaces.Motion`: ``(x, y, angle)`` in (m, m, rad) in 2-D, ``(x, y, z, rx, ry, rz)`` in 3-D.
+``centre`` (dim,) is in m.
 """
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -42,10 +45,34 @@ def to_body_frame(points: Array, motion_position: Array, centre: Array) -> Array
     return _rotated(points - centre - motion_position[: points.shape[1]], motion_position, -1.0) + centre
 
 
+def rotation_matrix(rotation: Array) -> Array:
+    """Return the matrix (3, 3) of a rotation vector (3,), in rad.
+
+    >>> rotation_matrix(np.array([0.0, 0.0, np.pi / 2])).round(3) @ np.array([1.0, 0.0, 0.0])
+    array([0., 1., 0.])
+    """
+    matrix: Array = _rotation(rotation).as_matrix()
+    return matrix
+
+
+def turned(rotation: Array, by: Array) -> Array:
+    """Return the rotation vector (3,) of ``rotation`` followed by the rotation ``by``, composed as quaternions."""
+    vector: Array = (_rotation(by) * _rotation(rotation)).as_rotvec()
+    return vector
+
+
+def _rotation(vector: Array) -> Any:
+    from scipy.spatial.transform import Rotation  # slow to import, and not needed in 2-D
+
+    return Rotation.from_rotvec(vector)
+
+
 def _rotated(vectors: Array, motion_position: Array, sense: float) -> Array:
-    """Rotate ``vectors`` (n, dim) by the angle of the motion, or back where ``sense`` is -1."""
+    """Rotate ``vectors`` (n, dim) by the rotation of the motion, or back where ``sense`` is -1."""
     if vectors.shape[1] == 3:
-        return vectors
-    cos, sin = math.cos(motion_position[2]), sense * math.sin(motion_position[2])
-    rotated: Array = vectors @ np.array([[cos, sin], [-sin, cos]])
+        matrix = rotation_matrix(sense * motion_position[3:])
+    else:
+        cos, sin = math.cos(motion_position[2]), sense * math.sin(motion_position[2])
+        matrix = np.array([[cos, -sin], [sin, cos]])
+    rotated: Array = vectors @ matrix.T
     return rotated

@@ -7,7 +7,7 @@ from sphframe.interfaces.boundary_interpolator import BoundaryInterpolator, Weig
 from sphframe.interfaces.equation_of_state import EquationOfState
 from sphframe.interfaces.integrator import Integrator, System
 from sphframe.interfaces.kernel import CompiledKernel, Kernel
-from sphframe.interfaces.rigid_body import Motion, RigidBody
+from sphframe.interfaces.rigid_body import Motion, RigidBody, Solid, Surroundings
 from sphframe.interfaces.run_view import Fields, ResumableRun, RunView
 from sphframe.interfaces.traits import DRY, OK, SINGULAR, TOO_FEW, EvaluationPoint, Status, Traits
 
@@ -27,7 +27,9 @@ __all__ = [
     "ResumableRun",
     "RigidBody",
     "RunView",
+    "Solid",
     "Status",
+    "Surroundings",
     "System",
     "Traits",
     "WeightsFunction",

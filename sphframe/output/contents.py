@@ -89,7 +89,7 @@ def _dimensions(simulation: RunView) -> dict[str, int | None]:
     outlines = [line for wall in scene.walls for line in wall.outline()]
     lengths = {
         "space": case.dimension,
-        "motion": 3,
+        "motion": 3 * case.dimension - 3,
         "probe": len(scene.probes),
         "gauge": len(scene.gauges),
         "wall": len(scene.walls),
@@ -150,7 +150,7 @@ def _names(simulation: RunView) -> dict[str, Sequence[str]]:
     scene, dimension = simulation.scene, simulation.case.dimension
     return {
         "space": tuple("xyz"[:dimension]),
-        "motion": ("x", "y", "angle") if dimension == 2 else ("x", "y", "z"),
+        "motion": ("x", "y", "angle") if dimension == 2 else ("x", "y", "z", "rx", "ry", "rz"),
         "probe": [probe.name for probe in scene.probes],
         "gauge": [gauge.name for gauge in scene.gauges],
         "wall": [wall.name for wall in scene.walls],

@@ -20,11 +20,17 @@ from sphframe.physics.momentum import pair_stress
 
 @numba.njit(inline="always")
 def add_load(load, row, centre, fx, fy, fz):  # type: ignore[no-untyped-def]
-    """Add a force on the particle ``row`` and, in 2-D, its moment about ``centre`` to ``load`` (3,)."""
+    """Add a force on the particle ``row`` and its moment about ``centre`` to ``load``, (3,) in 2-D, (6,) in 3-D."""
     load[0] += fx
     load[1] += fy
     if centre.shape[0] == 3:
+        rx = row[0] - centre[0]
+        ry = row[1] - centre[1]
+        rz = row[2] - centre[2]
         load[2] += fz
+        load[3] += ry * fz - rz * fy
+        load[4] += rz * fx - rx * fz
+        load[5] += rx * fy - ry * fx
     else:
         load[2] += (row[0] - centre[0]) * fy - (row[1] - centre[1]) * fx
 
@@ -33,10 +39,10 @@ def wall_reaction(  # type: ignore[no-untyped-def]
     rows, fluid_count, lists, fluid_counts, ghost_counts, ghost_walls, other_walls, other_normals, centres, parameters,
     partial, loads,
 ):  # fmt: skip
-    """Write force and moment (walls, 3) to ``loads``: (N, N, N m) per metre in 2-D, (N, N, N) in 3-D.
+    """Write force and moment of each wall to ``loads``: (walls, 3) in 2-D, per metre; (walls, 6) in 3-D; N and N m.
 
     ``other_walls`` (g,) and ``other_normals`` (g, dim): the walls that share corner ghosts, -1 for all other ghosts;
-    ``centres`` (walls, dim): the points to which moments refer, m; ``partial`` (chunks, walls, 3) is scratch.
+    ``centres`` (walls, dim): the points to which moments refer, m; ``partial`` (chunks, walls, 3 or 6) is scratch.
     """
     limit = parameters.support * parameters.support
     per_h2 = SUPPORT * SUPPORT / limit

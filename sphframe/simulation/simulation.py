@@ -11,6 +11,7 @@ import pluggy
 from numpy.typing import NDArray
 
 from sphframe.cases import Case
+from sphframe.cases.placement import placed_scene
 from sphframe.errors import InputError, SimulationError
 from sphframe.neighbours import LargestMotion
 from sphframe.simulation.components import Components
@@ -49,7 +50,7 @@ class Simulation(Observation):
         self.time = self.time_step = self.wall_clock = 0.0
         self.step = self.samples = self.frames = 0
         self.between_steps = True
-        scene = case.scene()
+        scene = placed_scene(case)
         with self._adding_time_and_step(), naming_component(case, running=False):
             components = Components.of_case(case)
             system = initial_system(case, scene, components, loop_parameters(case, scene, components))

@@ -38,7 +38,7 @@ class FluidSystem(System):
     rates: (n, 2 dim + 1) velocity, acceleration and density rate of the last evaluation.
     gradient: (n, dim) renormalised density gradient, kg/m^4.
     ids: (n,) original numbers of the fluid particles, which are kept in spatial order.
-    bodies: the states of the bodies; ``loads`` (walls, 3) force and moment on each wall.
+    bodies: the states of the bodies; ``loads`` (walls, 3 or 6) force and moment on each wall.
     """
 
     def __init__(
@@ -55,10 +55,10 @@ class FluidSystem(System):
         self._filling = filling
         self.parameters = parameters
         self.columns = Columns.of(dim)
-        self.bodies = BodyStates(boundary.bodies)
+        self.bodies = BodyStates(boundary.bodies, dim)
         walls = len(boundary.wall_body)
-        self.loads = np.zeros((walls, 3))
-        self._partial_loads = np.zeros((64, walls, 3))
+        self.loads = np.zeros((walls, self.bodies.size))
+        self._partial_loads = np.zeros((64, walls, self.bodies.size))
         self._driving_force = np.zeros(dim)
         self._driving_force[-1] = -parameters.reference_density * parameters.gravity
         self._pressure = specialise(update_pressure, parts)
@@ -172,9 +172,9 @@ class FluidSystem(System):
         self.bodies.update_rates(time, self._body_loads())
 
     def _body_loads(self) -> Array:
-        """Force and moment (bodies, 3) of the fluid on each body, as last computed."""
-        wall_body = self.boundary.wall_body
-        return np.array([self.loads[wall_body == k].sum(axis=0) for k in range(len(self.bodies))]).reshape(-1, 3)
+        """Force and moment (bodies, 3 or 6) of the fluid on each body, as last computed."""
+        wall_body, count = self.boundary.wall_body, len(self.bodies)
+        return np.array([self.loads[wall_body == k].sum(axis=0) for k in range(count)]).reshape(count, self.bodies.size)
 
     def put_back(self, spacing: float) -> int:
         """Put particles that have come behind a wall back on it; return how many there were."""

@@ -35,7 +35,7 @@ def test_every_body_keeps_the_promises_of_its_interface() -> None:
         ("spring-mass", {"mass": 0.0, "stiffness": 1.0}, "mass = 0.0 must be positive"),
         ("spring-mass", {"mass": 1.0, "stiffness": -1.0}, "stiffness = -1.0 must not be negative"),
         ("free", {"mass": 1.0, "inertia": 0.0}, "inertia = 0.0 must be positive"),
-        ("free", {"mass": 1.0, "inertia": 1.0, "centre": [0, 0, 0]}, "point of the plane"),
+        ("free", {"mass": 1.0, "density": 500.0}, "mass = 1.0 and density = 500.0 are both given"),
     ],
 )
 def test_bad_options_are_refused(name: str, options: dict[str, object], message: str) -> None:

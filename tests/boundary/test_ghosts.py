@@ -64,7 +64,7 @@ class Basin:
         self.rows[: self.n, c.density] = DENSITY
         force = np.zeros(dim)
         force[-1] = -DENSITY * GRAVITY
-        motions = [body.motion(0.0, None, None, None)] if body else []
+        motions = [Motion(*np.pad(body.motion(0.0, None, None, None), ((0, 0), (0, 3 * dim - 6))))] if body else []
         self.boundary.move(motions, self.rows[self.n :], force, DENSITY)
         self.lists = NeighbourLists(dim, self.n, self.boundary.count, self.kernel.support * self.h, 0.0)
         self.rows[: self.n] = self.rows[: self.n][self.lists.sort(self.rows)]

@@ -1,0 +1,56 @@
+"""Geometry: area or volume, centroid and second moments of solids, from which masses and inertias follow."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import shapely
+
+from sphframe.arrays import Array
+from sphframe.geometry.curves import area_within
+from sphframe.geometry.walls import PolygonWall, Wall
+from sphframe.interfaces import Solid
+
+
+def solid_within(walls: Sequence[Wall]) -> Solid | None:
+    """Return the solid within all closed ``walls`` of a body together; None if there is none."""
+    areas = [area_within(wall.points) for wall in walls if isinstance(wall, PolygonWall) and wall.closed]
+    return solid_of(shapely.union_all(areas)) if areas else None
+
+
+def solid_of(geometry: Any) -> Solid:
+    """Return the properties of an area of the plane, or of a closed mesh in space.
+
+    The second moments of an area, about the origin, are sums over the edges of its rings, from (x0, y0) to (x1, y1)::
+
+        int (x^2 + y^2) dA = 1/12 sum (x0 y1 - x1 y0) (x0^2 + x0 x1 + x1^2 + y0^2 + y0 y1 + y1^2)
+
+    Parameters
+    ----------
+    geometry: a shapely ``Polygon`` or ``MultiPolygon``, or a watertight ``trimesh.Trimesh``.
+
+    Examples
+    --------
+    A square of 2 m: its polar moment is a^4 / 6.
+
+    >>> solid = solid_of(shapely.box(1.0, 0.0, 3.0, 2.0))
+    >>> solid.volume, solid.centroid.tolist(), solid.moments.round(4).tolist()
+    (4.0, [2.0, 1.0], [[2.6667]])
+    """
+    if not isinstance(geometry, shapely.Geometry):
+        return Solid(float(geometry.volume), np.array(geometry.center_mass), np.array(geometry.moment_inertia))
+    area = shapely.orient_polygons(geometry)  # outer rings counter-clockwise, holes clockwise
+    centroid = np.array(area.centroid.coords[0])
+    polar = sum(_polar_moment(shapely.get_coordinates(ring) - centroid) for ring in _rings(area))
+    return Solid(float(area.area), centroid, np.array([[polar]]))
+
+
+def _rings(area: Any) -> list[Any]:
+    polygons = shapely.get_parts(area)
+    return [ring for polygon in polygons for ring in (polygon.exterior, *polygon.interiors)]
+
+
+def _polar_moment(ring: Array) -> float:
+    (x0, y0), (x1, y1) = ring[:-1].T, ring[1:].T
+    squares = x0 * x0 + x0 * x1 + x1 * x1 + y0 * y0 + y0 * y1 + y1 * y1
+    return float(np.sum((x0 * y1 - x1 * y0) * squares)) / 12.0
