@@ -1,10 +1,24 @@
 """Geometry: walls and regions, and the particles, ghosts, mirror points and panels that are placed on them."""
 
 from sphframe.geometry.curves import sampled
+from sphframe.geometry.fill import Fill, fill
 from sphframe.geometry.frames import directions_to_world, rotation_matrix, to_body_frame, to_world, turned
 from sphframe.geometry.ghosts import GhostPoints, wall_ghosts
 from sphframe.geometry.panels import Panels, wall_panels
-from sphframe.geometry.regions import BoxRegion, PolygonRegion, Region, lattice, lattice_cell
+from sphframe.geometry.regions import (
+    BoxRegion,
+    CircleRegion,
+    CurveRegion,
+    CylinderRegion,
+    DifferenceRegion,
+    EllipseRegion,
+    MeshRegion,
+    PointsRegion,
+    PolygonRegion,
+    Region,
+    SphereRegion,
+    UnionRegion,
+)
 from sphframe.geometry.shapes import (
     SHAPES,
     AnyShape,
@@ -34,14 +48,22 @@ __all__ = [
     "BoxRegion",
     "BoxWall",
     "Circle",
+    "CircleRegion",
     "Curve",
+    "CurveRegion",
     "Cylinder",
+    "CylinderRegion",
     "Difference",
+    "DifferenceRegion",
     "Ellipse",
+    "EllipseRegion",
+    "Fill",
     "GhostPoints",
     "Mesh",
+    "MeshRegion",
     "Panels",
     "PointsFile",
+    "PointsRegion",
     "Polygon",
     "PolygonRegion",
     "PolygonWall",
@@ -49,11 +71,12 @@ __all__ = [
     "Region",
     "Shape",
     "Sphere",
+    "SphereRegion",
     "Union",
+    "UnionRegion",
     "Wall",
     "directions_to_world",
-    "lattice",
-    "lattice_cell",
+    "fill",
     "rotation_matrix",
     "sampled",
     "solid_of",

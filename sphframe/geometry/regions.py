@@ -1,60 +1,107 @@
-"""Geometry: regions that are filled with fluid, on a square or cubic lattice."""
+"""Geometry: regions of fluid, closed shapes with the state in which their fluid starts."""
 
-from typing import Annotated
+from typing import Annotated, Any, Self
 
-import numpy as np
-from pydantic import Field
+from pydantic import BaseModel, Field, model_validator
 
-from sphframe.arrays import Array
-from sphframe.geometry.shapes import Box, Polygon, grid
+from sphframe.geometry.shapes import (
+    Box,
+    Circle,
+    Curve,
+    Cylinder,
+    Difference,
+    Ellipse,
+    Mesh,
+    PointsFile,
+    Polygon,
+    Sphere,
+    Union,
+    plane_area,
+)
 
 
-class PolygonRegion(Polygon):
-    """The inside of a simple polygon (2-D), corners in m in either sense of rotation."""
+class InitialState(BaseModel):
+    """How the fluid of a region starts: hydrostatic below a ``level``, or at a uniform ``pressure``, and its velocity.
 
-
-class BoxRegion(Box):
-    """A rectangle (2-D) or box (3-D) between two corners, m."""
-
-
-Region = Annotated[PolygonRegion | BoxRegion, Field(discriminator="shape")]
-
-
-def lattice(region: Region, spacing: float) -> Array:
-    """Positions (n, dim) of the centres of the :func:`lattice_cell` cells that fill ``region``.
-
-    Cells are counted from the region's lower corner, so the first particle lies half a cell from a wall there. A box
-    is filled from face to face. In a polygon each row of cells is divided evenly between the edges that it meets: along
-    a leaning wall no gap is left and no particle touches it, from which pressure waves would start.
+    By default the fluid is at rest below the highest point of all regions that it touches.
     """
-    lower, upper = region.bounds()
-    cell = lattice_cell(region, spacing)
-    counts = np.maximum(np.rint((upper - lower) / cell).astype(int), 1)
-    axes = [low + (np.arange(count) + 0.5) * edge for low, count, edge in zip(lower, counts, cell, strict=True)]
-    if isinstance(region, BoxRegion):
-        return grid(axes)
-    rows = [np.empty((0, 2))]
-    for y in axes[1]:
-        crossings = _crossings(np.array(region.points), y)
-        for left, right in zip(crossings[::2], crossings[1::2], strict=True):
-            count = round((right - left) / spacing)
-            x = left + (np.arange(count) + 0.5) / max(count, 1) * (right - left)
-            rows.append(np.stack([x, np.full(count, y)], axis=1))
-    return np.vstack(rows)
+
+    level: float | None = None
+    """height of the still water level, m"""
+    pressure: float | None = None
+    """uniform pressure, Pa"""
+    velocity: tuple[float, ...] | None = None
+    """m/s"""
+
+    @model_validator(mode="after")
+    def _one_state_of_an_area(self) -> Self:
+        region: Any = self
+        if region.dimension == 2:
+            plane_area(region, region.coarse)
+        if self.level is not None and self.pressure is not None:
+            raise ValueError("level and pressure are both given; a region is hydrostatic or has a uniform pressure")
+        if self.level is not None and self.level <= region.bounds()[0][-1]:
+            raise ValueError(f"level = {self.level:g} m lies below the region; give the height of its still water level")
+        if self.velocity is not None and len(self.velocity) != region.dimension:
+            raise ValueError(f"velocity {self.velocity} must have {region.dimension} components, as the shape has")
+        return self
 
 
-def _crossings(corners: Array, y: float) -> list[float]:
-    """Sorted x at which the polygon's edges cross the height ``y``; an even number of them."""
-    crossings = []
-    for (x1, y1), (x2, y2) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        if (y1 > y) != (y2 > y):
-            crossings.append(float(x1 + (y - y1) * (x2 - x1) / (y2 - y1)))
-    return sorted(crossings)
+class PolygonRegion(Polygon, InitialState):
+    """A polygon full of fluid."""
 
 
-def lattice_cell(region: Region, spacing: float) -> Array:
-    """Edges (dim,) of a lattice cell, m: ``spacing``, or in a box the nearest length of which a whole number fits."""
-    extent = np.subtract(*region.bounds()[::-1])
-    if isinstance(region, BoxRegion):
-        return np.asarray(extent / np.maximum(np.rint(extent / spacing), 1.0))
-    return np.full(len(extent), spacing)
+class BoxRegion(Box, InitialState):
+    """A rectangle (2-D) or box (3-D) full of fluid."""
+
+
+class CircleRegion(Circle, InitialState):
+    """A disc of fluid."""
+
+
+class EllipseRegion(Ellipse, InitialState):
+    """An ellipse full of fluid."""
+
+
+class CurveRegion(Curve, InitialState):
+    """The area within a closed curve, full of fluid."""
+
+
+class PointsRegion(PointsFile, InitialState):
+    """The area within the points of a file, full of fluid."""
+
+
+class UnionRegion(Union, InitialState):
+    """Several closed shapes full of fluid, as one region."""
+
+
+class DifferenceRegion(Difference, InitialState):
+    """A closed shape without others, full of fluid."""
+
+
+class SphereRegion(Sphere, InitialState):
+    """A ball of fluid (3-D)."""
+
+
+class CylinderRegion(Cylinder, InitialState):
+    """A circular cylinder full of fluid (3-D)."""
+
+
+class MeshRegion(Mesh, InitialState):
+    """The inside of a triangle mesh, full of fluid (3-D)."""
+
+
+Region = Annotated[
+    PolygonRegion
+    | BoxRegion
+    | CircleRegion
+    | EllipseRegion
+    | CurveRegion
+    | PointsRegion
+    | UnionRegion
+    | DifferenceRegion
+    | SphereRegion
+    | CylinderRegion
+    | MeshRegion,
+    Field(discriminator="shape"),
+]

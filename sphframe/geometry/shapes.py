@@ -52,8 +52,13 @@ class Shape(BaseModel, ABC):
 
     def bounds(self) -> tuple[Array, Array]:
         """Return the lower and the upper corner (dim,) of the box around the shape, m."""
-        bounds = np.reshape(self.geometry(_COARSE * self._extent()).bounds, (2, -1))
+        bounds = np.reshape(self.geometry(self.coarse).bounds, (2, -1))
         return bounds[0], bounds[1]
+
+    @property
+    def coarse(self) -> float:
+        """A tolerance, m, with which the shape is checked and bounded."""
+        return _COARSE * self._extent()
 
     def _extent(self) -> float:
         """Return a length of the order of the shape's size, or of its smallest part; 1 where there are no curves."""
@@ -61,7 +66,7 @@ class Shape(BaseModel, ABC):
 
     @model_validator(mode="after")
     def _sound(self) -> "Shape":
-        self.geometry(_COARSE * self._extent())
+        self.geometry(self.coarse)
         return self
 
 
