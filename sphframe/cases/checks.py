@@ -8,11 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from sphframe.cases.case import Case
+from sphframe.cases.fluid_checks import fluid_problems, fluid_reservations
 from sphframe.cases.parameters import Component
 from sphframe.cases.placement import placed_scene
 from sphframe.cases.scene import Scene
 from sphframe.errors import InputError, SphframeError
-from sphframe.geometry import Region, lattice
 from sphframe.interfaces import Integrator
 from sphframe.registry import COMPONENT_KINDS
 
@@ -96,8 +96,7 @@ def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
     yield from size_problems
     if size_problems:
         return
-    for index, region in enumerate(scene.fluid):
-        yield from _region_problems(case, scene, index, region)
+    yield from fluid_problems(scene, spacing)
     lower, upper = np.array(scene.domain)
     for probe in scene.probes:
         if np.any(np.array(probe.position) < lower) or np.any(np.array(probe.position) > upper):
@@ -193,32 +192,8 @@ def _size_problems(case: Case, scene: Scene) -> Iterator[str]:
         )
 
 
-def _region_problems(case: Case, scene: Scene, index: int, region: Region) -> Iterator[str]:
-    position = lattice(region, case.particle_spacing)
-    if len(position) == 0:
-        yield f"fluid[{index}] holds no particle; enlarge it or choose a smaller particle_spacing"
-        return
-    for wall in scene.walls:
-        behind = int(np.count_nonzero(wall.is_behind(position)))
-        if behind:
-            yield (
-                f"{behind} of {len(position)} particles of fluid[{index}] lie behind wall {wall.name!r}; draw the fluid"
-                f" within the walls, and a polygonal wall so that the fluid is on its left"
-            )
-    rim = max(float(line[:, -1].max()) for wall in scene.walls for line in wall.outline())
-    top = float(position[:, -1].max())
-    if top > rim:
-        yield f"fluid[{index}] reaches {top:g} m, above the rim of the walls at {rim:g} m; raise the walls"
-    lower, upper = np.array(scene.domain)
-    outside = int(np.count_nonzero(np.any((position < lower) | (position > upper), axis=1)))
-    if outside:
-        yield (
-            f"{outside} of {len(position)} particles of fluid[{index}] lie outside the domain {scene.domain};"
-            f" enlarge the domain"
-        )
-
-
 def _reservations(case: Case, scene: Scene) -> Iterator[str]:
+    yield from fluid_reservations(scene, case.particle_spacing)
     layers = scene.depth / case.particle_spacing
     if layers < 9.5:
         yield (

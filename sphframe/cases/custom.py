@@ -57,10 +57,11 @@ class Custom(Case):
         """Return what was given, with its bodies made."""
         lower = np.min([region.bounds()[0] for region in self.fluid], axis=0)
         upper = np.max([region.bounds()[1] for region in self.fluid], axis=0)
+        levels = (region.level for region in self.fluid if region.level is not None)
         return Scene(
             walls=self.walls,
             fluid=self.fluid,
-            depth=self.depth or float(upper[-1] - lower[-1]),
+            depth=self.depth or max([float(upper[-1]), *levels]) - float(lower[-1]),
             domain=self.domain or self._around_everything(lower, upper),
             probes=self.probes,
             gauges=self.gauges,

@@ -1,6 +1,8 @@
 """Geometry: the particles that fill a region, each with the volume of its own cell."""
 
 import itertools
+import math
+from collections.abc import Iterable
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -30,8 +32,8 @@ class Fill(NamedTuple):
 def fill(region: Region, spacing: float) -> Fill:
     """Return the particles that fill ``region``, about one ``spacing`` (m) apart.
 
-    They lie at the centres of lattice cells, whose edges are stretched so that the lattice fits the box around the
-    region, and all outlines parallel to an axis that are at least 1.5 spacings apart. Where an outline cuts cells, the
+    They lie at the centres of lattice cells, stretched so that the lattice fits all straight edges of the outline that
+    are parallel to an axis and at least 1.5 spacings apart. Where an outline cuts cells, the
     particles of these and of two cells around become the centres of their Voronoi cells within the region, by Lloyd's
     algorithm: the first layer follows the outline, half a spacing inside, and each volume is that of a Voronoi cell.
 
@@ -40,11 +42,20 @@ def fill(region: Region, spacing: float) -> Fill:
     Q. Du, V. Faber, M. Gunzburger, Centroidal Voronoi tessellations, SIAM Review 41 (1999), 637-676,
     doi:10.1137/S0036144599352836.
     """
+    filled = _filled(region, spacing)
+    for array in filled:
+        array.flags.writeable = False  # it is kept for the next call
+    return filled
+
+
+def _filled(region: Region, spacing: float) -> Fill:
     if isinstance(region, Box):
-        lattice = _Lattice.between(*region.bounds(), spacing)
+        lower, upper = region.bounds()
+        lattice = _Lattice.over(lower, upper, spacing, [*enumerate(lower), *enumerate(upper)])
         return Fill(lattice.centre, lattice.size.prod(axis=1))
     area = region.geometry(1e-3 * spacing)
-    lattice = _Lattice.between(*np.reshape(area.bounds, (2, 2)), spacing, straight_edges(area))
+    lower, upper = np.reshape(area.bounds, (2, 2))
+    lattice = _Lattice.over(lower, upper, spacing, straight_edges(area))
     near = np.flatnonzero(lattice.around(shapely.get_coordinates(shapely.segmentize(area.boundary, 0.25 * spacing))))
     shapely.prepare(area)
     size = lattice.size.prod(axis=1)
@@ -79,19 +90,23 @@ class _Lattice(NamedTuple):
     shape: tuple[int, ...]
 
     @classmethod
-    def between(cls, lower: Array, upper: Array, spacing: float, edges: Any = ()) -> "_Lattice":
+    def over(cls, lower: Array, upper: Array, spacing: float, edges: Iterable[tuple[int, float]]) -> "_Lattice":
+        """Cover a box, with cells stretched between those ``edges`` (axis, coordinate) that are far enough apart."""
         axes = []
-        for axis in range(len(lower)):
-            places = [lower[axis], upper[axis]]
+        for axis, (low, high) in enumerate(zip(lower, upper, strict=True)):
+            places: list[float] = []
             for place in (place for k, place in edges if k == axis):
-                if min(abs(place - other) for other in places) >= 1.5 * spacing:
+                if all(abs(place - other) >= 1.5 * spacing for other in places):
                     places.append(place)
-            intervals = []
-            for low, high in itertools.pairwise(sorted(places)):
-                count = max(int(np.rint((high - low) / spacing)), 1)
-                width = (high - low) / count
-                intervals.append((low + (np.arange(count) + 0.5) * width, np.full(count, width)))
-            axes.append([np.concatenate(arrays) for arrays in zip(*intervals, strict=True)])
+            places = sorted(places) or [0.5 * (low + high)]
+            before, after = (math.ceil(gap / spacing - 1e-6) for gap in (places[0] - low, high - places[-1]))
+            pieces = [(places[0] - before * spacing, before, spacing)]
+            for start, stop in itertools.pairwise(places):
+                count = max(int(np.rint((stop - start) / spacing)), 1)
+                pieces.append((start, count, (stop - start) / count))
+            pieces.append((places[-1], after, spacing))
+            centre = np.concatenate([start + (np.arange(count) + 0.5) * width for start, count, width in pieces])
+            axes.append((centre, np.concatenate([np.full(count, width) for _, count, width in pieces])))
         return cls(grid([a[0] for a in axes]), grid([a[1] for a in axes]), tuple(len(a[0]) for a in axes))
 
     def corners(self, cells: IntArray) -> tuple[Array, ...]:
@@ -156,9 +171,10 @@ def _relaxed(position: Array, samples: Array, weights: Array) -> Fill:
     from scipy.spatial import cKDTree
 
     nearest = np.full(len(samples), -1)
+    volume = np.zeros(len(position))
     for _ in range(_SWEEPS):
         before, nearest = nearest, cKDTree(position).query(samples)[1]
-        volume: Array = np.bincount(nearest, weights, len(position))
+        volume = np.bincount(nearest, weights, len(position)).astype(np.float64)
         if np.array_equal(before, nearest):
             break
         moments = [np.bincount(nearest, weights * x, len(position)) for x in samples.T]

@@ -4,20 +4,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import BaseModel, Field, model_validator
 
-from sphframe.geometry.shapes import (
-    Box,
-    Circle,
-    Curve,
-    Cylinder,
-    Difference,
-    Ellipse,
-    Mesh,
-    PointsFile,
-    Polygon,
-    Sphere,
-    Union,
-    plane_area,
-)
+from sphframe.geometry.shapes import Box, Circle, Curve, Difference, Ellipse, PointsFile, Polygon, Union, plane_area
 
 
 class InitialState(BaseModel):
@@ -41,7 +28,7 @@ class InitialState(BaseModel):
         if self.level is not None and self.pressure is not None:
             raise ValueError("level and pressure are both given; a region is hydrostatic or has a uniform pressure")
         if self.level is not None and self.level <= region.bounds()[0][-1]:
-            raise ValueError(f"level = {self.level:g} m lies below the region; give the height of its still water level")
+            raise ValueError(f"level = {self.level:g} m lies below the region; give the height of its still water")
         if self.velocity is not None and len(self.velocity) != region.dimension:
             raise ValueError(f"velocity {self.velocity} must have {region.dimension} components, as the shape has")
         return self
@@ -79,18 +66,6 @@ class DifferenceRegion(Difference, InitialState):
     """A closed shape without others, full of fluid."""
 
 
-class SphereRegion(Sphere, InitialState):
-    """A ball of fluid (3-D)."""
-
-
-class CylinderRegion(Cylinder, InitialState):
-    """A circular cylinder full of fluid (3-D)."""
-
-
-class MeshRegion(Mesh, InitialState):
-    """The inside of a triangle mesh, full of fluid (3-D)."""
-
-
 Region = Annotated[
     PolygonRegion
     | BoxRegion
@@ -99,9 +74,6 @@ Region = Annotated[
     | CurveRegion
     | PointsRegion
     | UnionRegion
-    | DifferenceRegion
-    | SphereRegion
-    | CylinderRegion
-    | MeshRegion,
+    | DifferenceRegion,
     Field(discriminator="shape"),
 ]

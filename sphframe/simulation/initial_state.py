@@ -8,12 +8,12 @@ from sphframe.boundary.filling import Filling
 from sphframe.cases import Case, Scene
 from sphframe.compiled import LANES, specialise
 from sphframe.errors import InputError
-from sphframe.geometry import lattice, lattice_cell
+from sphframe.geometry import fill
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
 from sphframe.physics import LoopParameters, invert_pressure
 from sphframe.simulation.components import Components
-from sphframe.simulation.rest_state import pressure_at_depth
+from sphframe.simulation.rest_state import pressure_at_depth, still_levels
 from sphframe.simulation.system import FluidSystem
 
 SKIN = 0.1
@@ -42,7 +42,10 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     InputError: when the scene holds no fluid or no wall, or contradicts the case.
     """
     dim, spacing = case.dimension, case.particle_spacing
-    position, volumes = _fluid_lattice(scene, spacing)
+    fills = [fill(region, spacing) for region in scene.fluid]
+    position = np.vstack([filled.position for filled in fills])
+    volumes = np.concatenate([filled.volume for filled in fills])
+    members = np.repeat(np.arange(len(fills)), [len(filled.volume) for filled in fills])
     _check_scene(scene, position, dim)
     boundary = Boundary(
         scene.walls,
@@ -72,26 +75,22 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     if scene.initial_pressure is not None:
         pressure = scene.initial_pressure(position)
     else:
-        depth = max(region.bounds()[1][-1] for region in scene.fluid) - position[:, -1]
+        depth = still_levels(scene, [filled.position for filled in fills], spacing)[members] - position[:, -1]
         pressure = pressure_at_depth(
             depth, density, parameters.reference_density, parameters.sound_speed, parameters.gravity
         )
+        for index, region in enumerate(scene.fluid):
+            if region.pressure is not None:
+                pressure[members == index] = region.pressure
     rows = _initial_rows(position, volumes, pressure, boundary.position, spacing, components, parameters)
+    for index, region in enumerate(scene.fluid):
+        if region.velocity is not None:
+            rows[: len(position)][members == index, Columns.of(dim).velocity] = region.velocity
     system = FluidSystem(rows, boundary, filling, lists, components.parts, parameters)
     system.move_walls(0.0)
     system.find_neighbours()
     system.evaluate(0.0)
     return system
-
-
-def _fluid_lattice(scene: Scene, spacing: float) -> tuple[Array, Array]:
-    """Return positions (n, dim) and volumes (n,) of the fluid particles in all regions."""
-    positions = [lattice(region, spacing) for region in scene.fluid]
-    volumes = [
-        np.full(len(position), np.prod(lattice_cell(region, spacing)))
-        for position, region in zip(positions, scene.fluid, strict=True)
-    ]
-    return np.vstack(positions), np.concatenate(volumes)
 
 
 def _initial_rows(

@@ -1,10 +1,70 @@
 """Simulation: the compressible rest state, the default initial state of a case."""
 
+import itertools
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import shapely
 
-from sphframe.arrays import Array
+from sphframe.arrays import Array, BoolArray, IntArray
+from sphframe.cases import Scene
+
+_TOUCHING = 1.3
+"""distance of particles over spacing up to which their regions touch"""
+
+
+def still_levels(scene: Scene, positions: Sequence[Array], spacing: float) -> Array:
+    """Return the still water level (n,), m, of each region of fluid, whose particles are at ``positions``.
+
+    It is the ``level`` of the region. Regions without one share the highest point, or level, of all regions that are
+    connected with them by touching regions; in 2-D, regions on both sides of a wall do not touch. Fluid that does not
+    stand on a wall falls freely: its pressure is zero, and its level minus infinity.
+    """
+    count = len(positions)
+    given = np.array([np.nan if region.level is None else region.level for region in scene.fluid])
+    own = np.where(np.isnan(given), [region.bounds()[1][-1] for region in scene.fluid], given)
+    walls = shapely.union_all(
+        [shapely.LineString(line) for wall in scene.walls if wall.dimension == 2 for line in wall.outline()]
+    )
+    component = _components(positions, walls, spacing) if count > 1 else np.zeros(1, dtype=int)
+    levels = given.copy()
+    for c in np.unique(component):
+        position = np.vstack([positions[k] for k in range(count) if component[k] == c])
+        stands = _stands(position[position[:, -1] < position[:, -1].min() + spacing], scene, walls, spacing)
+        levels[np.isnan(given) & (component == c)] = own[component == c].max() if stands else -np.inf
+    return levels
+
+
+def _components(positions: Sequence[Array], walls: Any, spacing: float) -> IntArray:
+    """Return the number (n,) of the group of touching regions to which each region belongs."""
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    touching = np.zeros((len(positions), len(positions)), dtype=np.bool_)
+    trees = [cKDTree(position) for position in positions]
+    for i, k in itertools.combinations(range(len(positions)), 2):
+        distance, nearest = trees[i].query(positions[k], distance_upper_bound=_TOUCHING * spacing)
+        near = np.isfinite(distance)
+        touching[i, k] = np.any(~_crosses(positions[k][near], positions[i][nearest[near]], walls))
+    return np.asarray(connected_components(touching, directed=False)[1])
+
+
+def _stands(lowest: Array, scene: Scene, walls: Any, spacing: float) -> bool:
+    """Whether a wall lies less than a spacing below most of the ``lowest`` particles (n, dim) of a body of fluid."""
+    below = lowest.copy()
+    below[:, -1] -= spacing
+    on_wall = _crosses(lowest, below, walls)
+    for wall in scene.walls:
+        on_wall |= wall.is_behind(below)
+    return bool(on_wall.mean() > 0.5)
+
+
+def _crosses(start: Array, stop: Array, walls: Any) -> BoolArray:
+    """Whether each line from ``start`` to ``stop`` (n, dim) meets a wall; in 3-D, no."""
+    if start.shape[1] == 3 or not len(start):
+        return np.zeros(len(start), dtype=np.bool_)
+    return np.asarray(shapely.intersects(walls, shapely.linestrings(np.stack([start, stop], axis=1))))
 
 
 def pressure_at_depth(

@@ -19,7 +19,7 @@ import sphframe
 from sphframe.cases import Case, CaseWarning
 from sphframe.compiled import fingerprint
 from sphframe.errors import InputError, OutputError, SimulationError
-from sphframe.geometry import lattice
+from sphframe.geometry import fill
 from sphframe.hooks import hookimpl
 from sphframe.interfaces import RunView
 from sphframe.kernels import compiled_kernel
@@ -87,7 +87,7 @@ class Task(ABC):
         """Expected work: particles times steps."""
         case = self.case()
         scene = case.scene()
-        particles = sum(len(lattice(region, case.particle_spacing)) for region in scene.fluid)
+        particles = sum(len(fill(region, case.particle_spacing).volume) for region in scene.fluid)
         sound_speed = case.reference_sound_speed(scene.depth)
         step = case.time_step or 0.5 * case.smoothing_length_ratio * case.particle_spacing / sound_speed
         return particles * case.until / step

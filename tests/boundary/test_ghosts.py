@@ -6,7 +6,7 @@ import pytest
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.filling import Filling
 from sphframe.equations_of_state.linear import Linear
-from sphframe.geometry import BoxRegion, BoxWall, lattice
+from sphframe.geometry import BoxRegion, BoxWall, fill
 from sphframe.interfaces import Motion, RigidBody, Status
 from sphframe.kernels import compiled_kernel
 from sphframe.kernels.gaussian import RenormalisedGaussian
@@ -54,7 +54,7 @@ class Basin:
         )
         parts = loop_parts(self.kernel, Linear(), dim)
         self.filling = Filling(interpolator, self.kernel, parts, corrected=corrected, balanced=lift == "balanced")
-        position = lattice(BoxRegion(lower=(0.0,) * dim, upper=(side,) * dim), SPACING)
+        position = fill(BoxRegion(lower=(0.0,) * dim, upper=(side,) * dim), SPACING).position.copy()
         position += np.random.default_rng(0).uniform(-jitter, jitter, position.shape) * SPACING
         self.n = len(position)
         c = self.columns = Columns.of(dim)

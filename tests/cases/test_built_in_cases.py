@@ -9,7 +9,7 @@ from sphframe.cases import Case, Fields
 from sphframe.cases.dam_break import DamBreak, connected_extent
 from sphframe.cases.hydrostatic_tank import HydrostaticTank
 from sphframe.errors import InputError
-from sphframe.geometry import lattice
+from sphframe.geometry import fill
 
 
 def still(position: np.ndarray) -> Fields:
@@ -24,7 +24,7 @@ def test_scene_is_consistent(case: type[Case], dimension: int) -> None:
     scene = made.scene()
     lower, upper = np.array(scene.domain)
     for region in scene.fluid:
-        position = lattice(region, made.particle_spacing)
+        position = fill(region, made.particle_spacing).position
         assert position.shape[1] == dimension
         assert np.all((position > lower) & (position < upper))
         assert not any(wall.is_behind(position).any() for wall in scene.walls)
@@ -37,7 +37,7 @@ def test_scene_is_consistent(case: type[Case], dimension: int) -> None:
 )
 def test_paper_preset_has_the_paper_s_particles(case: type[Case], preset: str, particles: int) -> None:
     made = case(**case.presets[preset])
-    assert sum(len(lattice(region, made.particle_spacing)) for region in made.scene().fluid) == particles
+    assert sum(len(fill(region, made.particle_spacing).position) for region in made.scene().fluid) == particles
     assert made.time_step == 1e-4
     assert made.hydrostatic_lift == "mirror"
     assert made.ghost_velocity == "interpolated"
@@ -79,7 +79,7 @@ def test_initial_pressure_is_the_series() -> None:
 def test_diagnostics_start_as_the_column(dimension: int) -> None:
     case = DamBreak(dimension=dimension, particle_spacing=0.05)
     scene = case.scene()
-    fluid = still(lattice(scene.fluid[0], case.particle_spacing))
+    fluid = still(fill(scene.fluid[0], case.particle_spacing).position)
     measured = {diagnostic.name: diagnostic.function(fluid) for diagnostic in scene.diagnostics}
     assert measured == pytest.approx({"front_position": 1.2, "column_height": 0.6})
 
@@ -88,7 +88,7 @@ def test_a_splash_drop_is_not_the_front() -> None:
     case = DamBreak(particle_spacing=0.02)
     scene = case.scene()
     front = next(d.function for d in scene.diagnostics if d.name == "front_position")
-    column = lattice(scene.fluid[0], case.particle_spacing)
+    column = fill(scene.fluid[0], case.particle_spacing).position
     a_drop_ahead = np.vstack([column, [[1.6, 0.01], [2.9, 0.01]]])
     assert front(still(a_drop_ahead)) == pytest.approx(1.2)
     a_drop_above = np.vstack([column, [[1.21, 0.4], [1.4, 0.3]]])

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from sphframe.geometry import BoxRegion, BoxWall, PolygonRegion, PolygonWall, lattice, wall_ghosts, wall_panels
+from sphframe.geometry import BoxRegion, BoxWall, PolygonWall, wall_ghosts, wall_panels
 
 TANK = PolygonWall(points=((0, 1), (0, 0), (2, 0), (2, 1)))
 
@@ -101,13 +101,6 @@ def test_panels_integrate_a_hydrostatic_pressure(wall):
     else:
         assert force[1] == pytest.approx(-2 * 2.0 if wall.open_faces else -2 * 2.0 + 2 * 1.0, rel=1e-9)
         assert force[0] == pytest.approx(0.0, abs=1e-9)
-
-
-def test_lattice_of_a_box_and_a_polygon():
-    assert len(lattice(BoxRegion(lower=(0, 0), upper=(1.2, 0.6)), 0.004)) == 45_000
-    triangle = lattice(PolygonRegion(points=((0, 0), (1, 0), (0, 1))), 0.01)
-    assert len(triangle) == pytest.approx(5000, rel=0.02)
-    assert triangle.min() > 0.0025
 
 
 @pytest.mark.parametrize(

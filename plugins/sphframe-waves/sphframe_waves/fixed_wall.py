@@ -24,9 +24,9 @@ class SolitaryWaveFixedWall(SolitaryWaveFlume):
     The preset's flume holds the paper's 25,180 particles; the wave comes to x = 10 m after 5.95 s:
 
     >>> from sphframe import load_case
-    >>> from sphframe.geometry import lattice
+    >>> from sphframe.geometry import fill
     >>> case = load_case("solitary-wave-fixed-wall", "paper")
-    >>> len(lattice(case.scene().fluid[0], case.particle_spacing)), round(case.paddle().arrival_time(10.0), 2)
+    >>> len(fill(case.scene().fluid[0], case.particle_spacing).volume), round(case.paddle().arrival_time(10.0), 2)
     (25180, 5.95)
     """
 

@@ -1,0 +1,120 @@
+"""Cases: contradictions between the regions of fluid, and between them and the walls."""
+
+import itertools
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import shapely
+
+from sphframe.arrays import Array
+from sphframe.cases.scene import Scene
+from sphframe.geometry import Region, fill
+
+_THIN = 0.01
+"""thickness over spacing below which an overlap or a gap is round-off"""
+_NARROW = 0.75
+"""width over spacing up to which a gap is taken for a mistake; a wider one is empty space"""
+
+
+def fluid_problems(scene: Scene, spacing: float) -> Iterator[str]:
+    """Yield what is wrong with the regions of fluid, for particles one ``spacing`` (m) apart."""
+    for index, region in enumerate(scene.fluid):
+        yield from _region_problems(scene, index, region, spacing)
+        if scene.initial_pressure is not None and (region.level is not None or region.pressure is not None):
+            yield f"fluid[{index}] has a level or pressure, but the case gives its own initial pressure; leave it out"
+    yield from _overlaps(scene.fluid, spacing)
+
+
+def _region_problems(scene: Scene, index: int, region: Region, spacing: float) -> Iterator[str]:
+    position = fill(region, spacing).position
+    if len(position) == 0:
+        yield f"fluid[{index}] holds no particle; enlarge it or choose a smaller particle_spacing"
+        return
+    for wall in scene.walls:
+        behind = int(np.count_nonzero(wall.is_behind(position)))
+        if behind:
+            yield (
+                f"{behind} of {len(position)} particles of fluid[{index}] lie behind wall {wall.name!r}; draw the fluid"
+                f" within the walls, and a polygonal wall so that the fluid is on its left"
+            )
+    rim = max(float(line[:, -1].max()) for wall in scene.walls for line in wall.outline())
+    top = float(position[:, -1].max())
+    if top > rim:
+        yield f"fluid[{index}] reaches {top:g} m, above the rim of the walls at {rim:g} m; raise the walls"
+    lower, upper = np.array(scene.domain)
+    outside = int(np.count_nonzero(np.any((position < lower) | (position > upper), axis=1)))
+    if outside:
+        yield (
+            f"{outside} of {len(position)} particles of fluid[{index}] lie outside the domain {scene.domain};"
+            f" enlarge the domain"
+        )
+
+
+def _overlaps(regions: tuple[Region, ...], spacing: float) -> Iterator[str]:
+    for (i, one), (k, other) in itertools.combinations(enumerate(regions), 2):
+        if one.dimension == 2:
+            common = one.geometry(1e-3 * spacing).intersection(other.geometry(1e-3 * spacing))
+            place, extent = shapely.get_coordinates(common.centroid), common.area
+            common = common.buffer(-0.5 * _THIN * spacing)
+            if common.is_empty:
+                continue
+            what = f"{extent:.3g} m2 around ({place[0, 0]:.4g}, {place[0, 1]:.4g})"
+        else:
+            lower, upper = (
+                np.maximum(one.bounds()[0], other.bounds()[0]),
+                np.minimum(one.bounds()[1], other.bounds()[1]),
+            )
+            if np.any(upper - lower <= _THIN * spacing):
+                continue
+            what = f"{np.prod(upper - lower):.3g} m3 around ({', '.join(f'{x:.4g}' for x in 0.5 * (lower + upper))})"
+        yield (
+            f"fluid[{i}] and fluid[{k}] overlap in {what}, which would hold twice the fluid; draw them side by side, or"
+            ' as one region of shape = "union"'
+        )
+
+
+def fluid_reservations(scene: Scene, spacing: float) -> Iterator[str]:
+    """Yield where fluid and wall are apart, or overlap, by less than a particle (2-D)."""
+    lines = [shapely.LineString(line) for wall in scene.walls for line in wall.outline() if line.shape[1] == 2]
+    if not lines:
+        return
+    walls = shapely.union_all(lines)
+    fluid = shapely.union_all([region.geometry(1e-3 * spacing) for region in scene.fluid], grid_size=1e-6 * spacing)
+    point, width = _distances(fluid, walls, spacing)
+    # the water's surface meets walls at an angle; only where both are about parallel are they meant to be one line
+    parallel = np.abs(width[:, 0] - width[:, 1]) < 0.15 * spacing
+    for sign in (1.0, -1.0):
+        wrong = parallel & (sign * width.mean(axis=1) > 2.0 * _THIN * spacing)
+        if wrong.any():
+            worst = int(np.argmax(np.where(wrong, sign * width.mean(axis=1), 0.0)))
+            x, y = point[worst].mean(axis=0)
+            where = f"{abs(width[worst].mean()):.3g} m at ({x:.4g}, {y:.4g})"
+            yield (
+                f"the fluid ends {where} before a wall, a gap that no particle fills; draw it up to the wall"
+                if sign > 0
+                else f"the fluid reaches {where} behind a wall; draw it up to the wall"
+            )
+
+
+def _distances(fluid: Any, walls: Any, spacing: float) -> tuple[Array, Array]:
+    """Points (n, 2, 2) at 1/4 and 3/4 of each half spacing of an outline, and the distances (n, 2) to walls.
+
+    A distance, m, is measured along the normal out of the fluid; it is NaN where there is no wall near.
+    """
+    points, normals = [], []
+    for part in shapely.get_parts(fluid):
+        for ring in shapely.get_parts(shapely.orient_polygons(part).boundary):
+            corner = shapely.get_coordinates(shapely.segmentize(ring, 0.5 * spacing))
+            edge = np.diff(corner, axis=0)
+            points.append(corner[:-1, None] + edge[:, None] * [[0.25], [0.75]])
+            normal = np.stack([edge[:, 1], -edge[:, 0]], axis=1) / np.linalg.norm(edge, axis=1)[:, None]
+            normals.append(np.repeat(normal[:, None], 2, axis=1))
+    point, normal = np.concatenate(points), np.concatenate(normals)
+    reach = np.stack([point - 0.5 * spacing * normal, point + _NARROW * spacing * normal], axis=2)
+    hit = shapely.shortest_line(shapely.points(point), shapely.intersection(shapely.linestrings(reach), walls))
+    width = np.full(hit.shape, np.nan)
+    met = ~shapely.is_missing(hit)
+    nearest = shapely.get_coordinates(shapely.get_point(hit[met], 1))
+    width[met] = np.einsum("nk,nk->n", nearest - point[met], normal[met])
+    return point, width
