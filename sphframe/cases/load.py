@@ -12,6 +12,7 @@ from sphframe.cases.case import Case
 from sphframe.cases.checks import check_case
 from sphframe.cases.parameters import Component
 from sphframe.errors import InputError
+from sphframe.geometry import SHAPES
 from sphframe.registry import is_address, load
 from sphframe.registry.nearest import did_you_mean
 
@@ -54,6 +55,7 @@ def load_case(
         parameters = {name: getattr(source, name) for name in source.model_fields_set}
     elif Path(source).suffix == ".toml":
         name, file_preset, parameters = read_toml(source)
+        parameters = _beside(parameters, Path(source).parent)
         if not trusted:
             _refuse_addresses(source, name, parameters, overrides or {})
         model = load("cases", name)
@@ -70,6 +72,18 @@ def load_case(
     case = _with_contents(case, Path(source).parent if isinstance(source, str | Path) else Path())
     check_case(case)
     return case
+
+
+def _beside(value: Any, folder: Path) -> Any:
+    """Return the tables of a case file with the files that its shapes name looked for beside it."""
+    if isinstance(value, list):
+        return [_beside(item, folder) for item in value]
+    if not isinstance(value, dict):
+        return value
+    found = {key: _beside(item, folder) for key, item in value.items()}
+    if value.get("shape") in SHAPES and isinstance(value.get("file"), str):
+        found["file"] = str(folder / value["file"])
+    return found
 
 
 def _with_contents(case: Case, folder: Path) -> Case:

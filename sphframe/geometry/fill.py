@@ -100,6 +100,7 @@ class _Lattice(NamedTuple):
                     places.append(place)
             places = sorted(places) or [0.5 * (low + high)]
             before, after = (math.ceil(gap / spacing - 1e-6) for gap in (places[0] - low, high - places[-1]))
+            after = max(after, 1 if len(places) == 1 and before == 0 else 0)
             pieces = [(places[0] - before * spacing, before, spacing)]
             for start, stop in itertools.pairwise(places):
                 count = max(int(np.rint((stop - start) / spacing)), 1)

@@ -297,3 +297,35 @@ def test_any_text_is_a_case_file_or_an_input_error(tmp_path_factory: pytest.Temp
     path.write_text(text, encoding="utf-8")
     with contextlib.suppress(InputError):
         read_toml(path)
+
+
+DRUM = """
+particle_spacing = 0.02
+until = 0.1
+[[walls]]
+shape = "box"
+name = "tank"
+lower = [0, 0]
+upper = [1, 1]
+open_faces = ["+y"]
+[[fluid]]
+shape = "difference"
+level = 0.3
+of = { shape = "points", file = "bed.csv", closed = true }
+minus = [{ shape = "circle", centre = [0.5, 0.3], radius = RADIUS }]
+"""
+
+
+def test_files_of_shapes_are_beside_the_case_file_and_stay_with_the_case(tmp_path: Path) -> None:
+    (tmp_path / "bed.csv").write_text("0, 0\n1, 0\n1, 0.3\n0, 0.3\n", encoding="utf-8")
+    case = load_case(written(tmp_path, DRUM.replace("RADIUS", "0.1")))
+    assert case.scene().depth == 0.3
+    (tmp_path / "bed.csv").unlink()
+    again = Custom(**json.loads(case.model_dump_json()))
+    assert again.scene().fluid == case.scene().fluid
+
+
+def test_the_place_of_a_wrong_shape_within_a_shape_is_named(tmp_path: Path) -> None:
+    (tmp_path / "bed.csv").write_text("0, 0\n1, 0\n1, 0.3\n0, 0.3\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"fluid\[0\].minus\[0\].radius = -1 must be greater than 0"):
+        load_case(written(tmp_path, DRUM.replace("RADIUS", "-1")))
