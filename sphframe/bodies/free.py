@@ -7,7 +7,7 @@ from typing import Any, ClassVar, final
 import numpy as np
 
 from sphframe.arrays import Array
-from sphframe.geometry import directions_to_world, rotation_matrix
+from sphframe.geometry import directions_to_world, moments, rotation_matrix, turning_velocities
 from sphframe.interfaces.rigid_body import Motion, RigidBody, Surroundings
 
 _STANDARD_GRAVITY = 9.81
@@ -45,9 +45,9 @@ class Free(RigidBody):
     The ghosts' pressure contains the wall's acceleration, and the acceleration follows from the pressure of the
     evaluation before. This iteration converges when the body is heavier than the water whose pressure responds within
     one evaluation. That is not the added mass of the body, which acts only after sound waves have passed, but a layer
-    of a third of a particle spacing around it: in tests, a body was unstable below m = 0.34 rho dx times its wetted
-    length. A floating body is heavier than that if its draught exceeds half a particle spacing; a lighter one is
-    refused.
+    around it: in tests, a body that moves in one direction was unstable below m = 0.6 rho dx times the length of its
+    wetted wall across this direction. A floating body is heavier than that if its draught exceeds 0.6 particle
+    spacings. A lighter one is refused, see :mod:`sphframe.simulation.light_bodies`.
     """
 
     mass: float | None = None
@@ -114,7 +114,7 @@ class Free(RigidBody):
         moment, inertia = load[dim:], self._inertia_at(position, dim)
         arm = self._arm(position, dim)
         if arm is not None:
-            moment = moment + _cross(arm, mass * acceleration[:dim])
+            moment = moment + moments(arm[None], mass * acceleration[None, :dim])[0]
             inertia = inertia + mass * (arm @ arm * np.eye(len(moment)) - (np.outer(arm, arm) if dim == 3 else 0.0))
         omega, turning = velocity[dim:], ~held[dim:]
         acceleration[dim:] = 0.0
@@ -125,8 +125,9 @@ class Free(RigidBody):
             acceleration[3:][turning] = np.linalg.solve(inertia[np.ix_(turning, turning)], moment[turning])
         if arm is not None:
             position[:dim] = arm - (np.array(self.centre) - np.array(self.hinge))
-            velocity[:dim] = _turning(omega, arm)
-            acceleration[:dim] = _turning(acceleration[dim:], arm) + _turning(omega, _turning(omega, arm))
+            velocity[:dim] = turning_velocities(omega, arm[None])[0]
+            acceleration[:dim] = turning_velocities(acceleration[dim:], arm[None])[0]
+            acceleration[:dim] += turning_velocities(omega, velocity[None, :dim])[0]
         else:
             acceleration[held] = 0.0
         return Motion(position, velocity, acceleration)
@@ -150,13 +151,3 @@ class Free(RigidBody):
 def _tensor(inertia: float | Sequence[Any] | None) -> Array:
     given = np.array(0.0 if inertia is None else inertia, dtype=np.float64)
     return np.diag(np.atleast_1d(given)) if given.ndim < 2 else given
-
-
-def _cross(arm: Array, force: Array) -> Array:
-    """Return the moment of a force, shape (1,) in 2-D."""
-    return np.array([arm[0] * force[1] - arm[1] * force[0]]) if len(arm) == 2 else np.cross(arm, force)
-
-
-def _turning(omega: Array, arm: Array) -> Array:
-    """Return omega x arm."""
-    return omega[0] * np.array([-arm[1], arm[0]]) if len(arm) == 2 else np.cross(omega, arm)

@@ -2,7 +2,15 @@
 
 from sphframe.geometry.curves import sampled
 from sphframe.geometry.fill import Fill, fill
-from sphframe.geometry.frames import directions_to_world, rotation_matrix, to_body_frame, to_world, turned
+from sphframe.geometry.frames import (
+    directions_to_world,
+    moments,
+    rotation_matrix,
+    to_body_frame,
+    to_world,
+    turned,
+    turning_velocities,
+)
 from sphframe.geometry.ghosts import GhostPoints, wall_ghosts
 from sphframe.geometry.panels import Panels, wall_panels
 from sphframe.geometry.regions import (
@@ -71,6 +79,7 @@ __all__ = [
     "Wall",
     "directions_to_world",
     "fill",
+    "moments",
     "rotation_matrix",
     "sampled",
     "solid_of",
@@ -78,6 +87,7 @@ __all__ = [
     "to_body_frame",
     "to_world",
     "turned",
+    "turning_velocities",
     "wall_ghosts",
     "wall_panels",
 ]

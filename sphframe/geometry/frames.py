@@ -45,6 +45,20 @@ def to_body_frame(points: Array, motion_position: Array, centre: Array) -> Array
     return _rotated(points - centre - motion_position[: points.shape[1]], motion_position, -1.0) + centre
 
 
+def moments(arms: Array, forces: Array) -> Array:
+    """Return arm x force for each of n pairs, shape (n, 1) in 2-D and (n, 3) in 3-D."""
+    if arms.shape[1] == 2:
+        return (arms[:, 0] * forces[:, 1] - arms[:, 1] * forces[:, 0])[:, None]
+    return np.cross(arms, forces)
+
+
+def turning_velocities(omega: Array, arms: Array) -> Array:
+    """Return omega x arm (n, dim) for an angular velocity, shape (1,) in 2-D and (3,) in 3-D, rad/s."""
+    if arms.shape[1] == 2:
+        return np.asarray(omega[0] * np.column_stack([-arms[:, 1], arms[:, 0]]))
+    return np.cross(omega, arms)
+
+
 def rotation_matrix(rotation: Array) -> Array:
     """Return the matrix (3, 3) of a rotation vector (3,), in rad.
 

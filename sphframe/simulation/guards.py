@@ -21,6 +21,8 @@ from sphframe.simulation.system import FluidSystem
 
 COLLAPSED = 0.02
 """lowest adaptive time step over that at rest; below it, at speeds above 50 c0, the time step has collapsed"""
+FASTEST_BODY = 0.5
+"""highest speed of a body over the sound speed: above it, the water is no longer weakly compressible"""
 _ROUND_OFF = 1e-8
 _STEP_IS_TOO_LONG = "a time step above the stability limit (set a smaller courant_number or time_step)"
 
@@ -80,9 +82,40 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array) -> 
         )
     if guards.fallbacks == "stop":
         _check_fallbacks(system.boundary, case)
+    if system.boundary.bodies:
+        check_bodies(system, lower, upper, case.particle_spacing)
     position = rows[:n, columns.position]
     gone = np.any((position < lower) | (position > upper), axis=1) if outside else None
     return Tolerated(gone, out_of_range)
+
+
+def check_bodies(system: FluidSystem, lower: Array, upper: Array, spacing: float) -> None:
+    """Check that bodies have finite positions and velocities, are not too fast, in the domain and outside of walls.
+
+    Raises
+    ------
+    SimulationError: when one does not; the message names it.
+    """
+    boundary, fastest, deepest = system.boundary, FASTEST_BODY * system.parameters.sound_speed, system.contacts.deepest
+    for k, name in enumerate(boundary.bodies):
+        own = boundary.body == k
+        beside, speeds = boundary.mirror[own], np.linalg.norm(boundary.velocity[own], axis=1)
+        velocity = system.bodies.velocity[k]
+        fault = ""
+        if not np.all(np.isfinite([system.bodies.position[k], velocity])):
+            fault = "has a position or a velocity that is not finite"
+        elif speeds.max(initial=0.0) > fastest:
+            fault = f"moves at {speeds.max():.4g} m/s, above {FASTEST_BODY:g} c0 = {fastest:.4g} m/s"
+        elif len(beside) and (np.any(beside.max(axis=0) < lower) or np.any(beside.min(axis=0) > upper)):
+            fault = "has left the domain"
+        elif deepest is not None and deepest.body == k and deepest.depth > 0.5 * spacing:
+            fault = f"has sunk {deepest.depth:.3g} m into wall {deepest.wall!r}, more than half a particle spacing"
+        if fault:
+            raise SimulationError(
+                f"body {name!r} {fault} (velocity {velocity.tolist()}); likely causes: a body too light for the flow,"
+                f" hit too hard, or moved by a wrong motion, walls that end too low, or {_STEP_IS_TOO_LONG}",
+                place=tuple((boundary.centres[k] + system.bodies.position[k, : boundary.dim]).tolist()),
+            )
 
 
 def _check_ghosts(system: FluidSystem, case: Case) -> None:

@@ -8,11 +8,13 @@ from sphframe.boundary.filling import Filling
 from sphframe.cases import Case, Scene
 from sphframe.compiled import LANES, specialise
 from sphframe.errors import InputError
-from sphframe.geometry import fill
+from sphframe.geometry import fill, wall_panels
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
 from sphframe.physics import LoopParameters, invert_pressure
+from sphframe.simulation.body_contact import FREQUENCY, BodyContacts
 from sphframe.simulation.components import Components
+from sphframe.simulation.light_bodies import check_weights
 from sphframe.simulation.rest_state import pressure_at_depth, still_levels
 from sphframe.simulation.system import FluidSystem
 
@@ -86,7 +88,14 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     for index, region in enumerate(scene.fluid):
         if region.velocity is not None:
             rows[: len(position)][members == index, Columns.of(dim).velocity] = region.velocity
-    system = FluidSystem(rows, boundary, filling, lists, components.parts, parameters)
+    panels, frequency = (
+        wall_panels(scene.walls, spacing),
+        FREQUENCY * parameters.sound_speed / parameters.smoothing_length,
+    )
+    if scene.bodies:
+        check_weights(boundary, panels, position, spacing, parameters.reference_density)
+    contacts = BodyContacts(boundary, scene.walls, panels, spacing=spacing, frequency=frequency)
+    system = FluidSystem(rows, boundary, filling, lists, components.parts, parameters, contacts)
     system.move_walls(0.0)
     system.find_neighbours()
     system.evaluate(0.0)

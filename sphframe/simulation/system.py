@@ -18,6 +18,7 @@ from sphframe.interfaces import System
 from sphframe.neighbours import LargestMotion, NeighbourLists, put_in_order
 from sphframe.particles import Columns
 from sphframe.physics import LoopParameters, fluid_sums, update_pressure, wall_reaction
+from sphframe.simulation.body_contact import BodyContacts
 from sphframe.simulation.body_states import BodyStates
 from sphframe.simulation.updates import (
     accumulate_rates,
@@ -38,7 +39,8 @@ class FluidSystem(System):
     rates: (n, 2 dim + 1) velocity, acceleration and density rate of the last evaluation.
     gradient: (n, dim) renormalised density gradient, kg/m^4.
     ids: (n,) original numbers of the fluid particles, which are kept in spatial order.
-    bodies: the states of the bodies; ``loads`` (walls, 3 or 6) force and moment on each wall.
+    bodies: the states of the bodies; ``contacts`` between them and walls.
+    loads: (walls, 3 or 6) force and moment of the fluid on each wall.
     """
 
     def __init__(
@@ -49,9 +51,11 @@ class FluidSystem(System):
         lists: NeighbourLists,
         parts: Mapping[str, Any],
         parameters: LoopParameters,
+        contacts: BodyContacts,
     ) -> None:
         dim = boundary.dim
         self.boundary = boundary
+        self.contacts = contacts
         self._filling = filling
         self.parameters = parameters
         self.columns = Columns.of(dim)
@@ -169,7 +173,9 @@ class FluidSystem(System):
             return
         if self.bodies.need_loads:
             self.update_loads()
-        self.bodies.update_rates(time, self._body_loads())
+        loads = self._body_loads()
+        self.contacts.add_loads(self.bodies.motions, loads)
+        self.bodies.update_rates(time, loads)
 
     def _body_loads(self) -> Array:
         """Force and moment (bodies, 3 or 6) of the fluid on each body, as last computed."""
