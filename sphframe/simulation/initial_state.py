@@ -88,18 +88,23 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     for index, region in enumerate(scene.fluid):
         if region.velocity is not None:
             rows[: len(position)][members == index, Columns.of(dim).velocity] = region.velocity
-    panels, frequency = (
-        wall_panels(scene.walls, spacing),
-        FREQUENCY * parameters.sound_speed / parameters.smoothing_length,
-    )
-    if scene.bodies:
-        check_weights(boundary, panels, position, spacing, parameters.reference_density)
-    contacts = BodyContacts(boundary, scene.walls, panels, spacing=spacing, frequency=frequency)
+    contacts = _contacts(scene, boundary, position, spacing, parameters)
     system = FluidSystem(rows, boundary, filling, lists, components.parts, parameters, contacts)
     system.move_walls(0.0)
     system.find_neighbours()
     system.evaluate(0.0)
     return system
+
+
+def _contacts(
+    scene: Scene, boundary: Boundary, position: Array, spacing: float, parameters: LoopParameters
+) -> BodyContacts:
+    """Return the contacts of the bodies, which are checked to be heavy enough for the fluid at ``position``."""
+    panels = wall_panels(scene.walls, spacing)
+    if scene.bodies:
+        check_weights(boundary, panels, position, spacing, parameters.reference_density)
+    frequency = FREQUENCY * parameters.sound_speed / parameters.smoothing_length
+    return BodyContacts(boundary, scene.walls, panels, spacing=spacing, frequency=frequency)
 
 
 def _initial_rows(
