@@ -9,7 +9,7 @@ import shapely
 
 from sphframe.arrays import Array
 from sphframe.cases.scene import Scene
-from sphframe.geometry import Region, fill
+from sphframe.geometry import Region, common_part, fill
 
 _THIN = 0.01
 """thickness over spacing below which an overlap or a gap is round-off"""
@@ -53,25 +53,13 @@ def _region_problems(scene: Scene, index: int, region: Region, spacing: float) -
 
 def _overlaps(regions: tuple[Region, ...], spacing: float) -> Iterator[str]:
     for (i, one), (k, other) in itertools.combinations(enumerate(regions), 2):
-        if one.dimension == 2:
-            common = one.geometry(1e-3 * spacing).intersection(other.geometry(1e-3 * spacing))
-            place, extent = shapely.get_coordinates(common.centroid), common.area
-            common = common.buffer(-0.5 * _THIN * spacing)
-            if common.is_empty:
-                continue
-            what = f"{extent:.3g} m2 around ({place[0, 0]:.4g}, {place[0, 1]:.4g})"
-        else:
-            lower, upper = (
-                np.maximum(one.bounds()[0], other.bounds()[0]),
-                np.minimum(one.bounds()[1], other.bounds()[1]),
+        common = common_part(one, other, spacing)
+        if common is not None:
+            place = ", ".join(f"{x:.4g}" for x in common[1])
+            yield (
+                f"fluid[{i}] and fluid[{k}] overlap in {common[0]:.3g} m{one.dimension} around ({place}), where there"
+                ' would be twice the fluid; draw them side by side, or as one region of shape = "union"'
             )
-            if np.any(upper - lower <= _THIN * spacing):
-                continue
-            what = f"{np.prod(upper - lower):.3g} m3 around ({', '.join(f'{x:.4g}' for x in 0.5 * (lower + upper))})"
-        yield (
-            f"fluid[{i}] and fluid[{k}] overlap in {what}, which would hold twice the fluid; draw them side by side, or"
-            ' as one region of shape = "union"'
-        )
 
 
 def fluid_reservations(scene: Scene, spacing: float) -> Iterator[str]:

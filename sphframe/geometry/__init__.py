@@ -1,7 +1,7 @@
 """Geometry: walls and regions, and the particles, ghosts, mirror points and panels that are placed on them."""
 
 from sphframe.geometry.curves import sampled
-from sphframe.geometry.fill import Fill, fill
+from sphframe.geometry.fill import Fill, common_part, fill
 from sphframe.geometry.frames import (
     directions_to_world,
     moments,
@@ -17,11 +17,14 @@ from sphframe.geometry.regions import (
     BoxRegion,
     CircleRegion,
     CurveRegion,
+    CylinderRegion,
     DifferenceRegion,
     EllipseRegion,
+    MeshRegion,
     PointsRegion,
     PolygonRegion,
     Region,
+    SphereRegion,
     UnionRegion,
 )
 from sphframe.geometry.shapes import (
@@ -57,6 +60,7 @@ __all__ = [
     "Curve",
     "CurveRegion",
     "Cylinder",
+    "CylinderRegion",
     "Difference",
     "DifferenceRegion",
     "Ellipse",
@@ -64,6 +68,7 @@ __all__ = [
     "Fill",
     "GhostPoints",
     "Mesh",
+    "MeshRegion",
     "Panels",
     "PointsFile",
     "PointsRegion",
@@ -74,9 +79,11 @@ __all__ = [
     "Region",
     "Shape",
     "Sphere",
+    "SphereRegion",
     "Union",
     "UnionRegion",
     "Wall",
+    "common_part",
     "directions_to_world",
     "fill",
     "moments",

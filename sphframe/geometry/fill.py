@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 
 from sphframe.arrays import Array, BoolArray, IntArray
+from sphframe.geometry.columns import parts_inside, straight_faces
 from sphframe.geometry.regions import Region
 from sphframe.geometry.shapes import Box, grid
 
@@ -18,6 +19,8 @@ _PARTS = 8
 _RINGS = 2
 """cells around those that the outline cuts whose particles are relaxed with them"""
 _SWEEPS = 20
+_BLOCK = 4
+"""cells along each edge of a block in which the number of particles is right"""
 _ROUND_OFF = 1e-9
 
 
@@ -53,6 +56,10 @@ def _filled(region: Region, spacing: float) -> Fill:
         lower, upper = region.bounds()
         lattice = _Lattice.over(lower, upper, spacing, [*enumerate(lower), *enumerate(upper)])
         return Fill(lattice.centre, lattice.size.prod(axis=1))
+    return (_filled_area if region.dimension == 2 else _filled_solid)(region, spacing)
+
+
+def _filled_area(region: Region, spacing: float) -> Fill:
     area = region.geometry(1e-3 * spacing)
     lower, upper = np.reshape(area.bounds, (2, 2))
     lattice = _Lattice.over(lower, upper, spacing, straight_edges(area))
@@ -62,32 +69,69 @@ def _filled(region: Region, spacing: float) -> Fill:
     volume = np.where(shapely.contains_xy(area, lattice.centre), size, 0.0)
     cells = shapely.intersection(shapely.box(*lattice.corners(near)), area)
     volume[near] = shapely.area(cells)
-    inside = volume > (1.0 - _ROUND_OFF) * size
-    cut = ~inside & (volume > _ROUND_OFF * size)
-    if not cut.any():
-        return Fill(lattice.centre[inside], size[inside])
+    cut, mobile, fixed = lattice.kinds(volume)
     cells = cells[cut[near]]
-    mobile = lattice.grown(cut, _RINGS) & inside
-    fixed = inside & ~mobile
-    start = shapely.get_coordinates(shapely.centroid(cells[_evenly(cells, volume[cut] / size[cut], area)]))
+    start = shapely.get_coordinates(shapely.centroid(cells[lattice.chosen(cut, volume / size)[cut]]))
     parts = [_parts(shapely.box(*lattice.corners(np.flatnonzero(which)))) for which in (cut, mobile)]
     parts[0] = shapely.intersection(parts[0], cells[:, None])
     samples = np.concatenate([part.ravel() for part in parts])
     samples = samples[~shapely.is_empty(samples)]
-    relaxed = _relaxed(
-        np.vstack([start, lattice.centre[mobile]]),
-        shapely.get_coordinates(shapely.centroid(samples)),
-        shapely.area(samples),
+    return lattice.filled(
+        start, mobile, fixed, shapely.get_coordinates(shapely.centroid(samples)), shapely.area(samples)
     )
-    return Fill(np.vstack([relaxed.position, lattice.centre[fixed]]), np.concatenate([relaxed.volume, size[fixed]]))
+
+
+def _filled_solid(region: Region, spacing: float) -> Fill:
+    mesh = region.geometry(0.02 * spacing)
+    lattice = _Lattice.over(mesh.bounds[0], mesh.bounds[1], spacing, straight_faces(mesh))
+    size = lattice.size.prod(axis=1)
+    volume, moment = np.zeros(len(size)), np.zeros((len(size), 3))
+    for cell, centre, part in parts_inside(mesh, lattice.axes):
+        volume += np.bincount(cell, part, len(size))
+        moment += np.stack([np.bincount(cell, part * x, len(size)) for x in centre.T], axis=1)
+    cut, mobile, fixed = lattice.kinds(volume)
+    chosen = lattice.chosen(cut, volume / size)
+    found = [
+        (centre[which], part[which] * np.where(cut[cell[which]], exact, 1.0))
+        for exact in [(mesh.volume - size[mobile | fixed].sum()) / max(volume[cut].sum(), 1e-300)]
+        for cell, centre, part in parts_inside(mesh, lattice.axes)
+        for which in [np.flatnonzero((cut | mobile)[cell])]
+    ]
+    samples, weights = (np.concatenate(arrays) for arrays in zip(*found, strict=True))
+    return lattice.filled(moment[chosen] / volume[chosen, None], mobile, fixed, samples, weights)
+
+
+def common_part(one: Region, other: Region, spacing: float) -> tuple[float, Array] | None:
+    """Return the measure (m2 or m3) and the centre (dim,) of what two regions have in common; None if they only touch.
+
+    An overlap thinner than a hundredth of a ``spacing`` is round-off; between solids other than boxes, than a tenth.
+    """
+    if one.dimension == 2:
+        common = one.geometry(1e-3 * spacing).intersection(other.geometry(1e-3 * spacing))
+        thin = common.buffer(-0.005 * spacing).is_empty
+        return None if thin else (float(common.area), shapely.get_coordinates(common.centroid)[0])
+    bounds = np.array([one.bounds(), other.bounds()])
+    lower, upper = bounds[:, 0].max(axis=0), bounds[:, 1].min(axis=0)
+    if np.any(upper - lower < 0.01 * spacing):
+        return None
+    if isinstance(one, Box) and isinstance(other, Box):
+        return float(np.prod(upper - lower)), 0.5 * (lower + upper)
+    lattice = _Lattice.over(lower, upper, spacing, ())
+    size = lattice.size.prod(axis=1)
+    twice = -size
+    for region in (one, other):
+        for cell, _, part in parts_inside(region.geometry(0.02 * spacing), lattice.axes):
+            twice += np.bincount(cell, part, len(size))
+    twice[twice < 0.1 * size] = 0.0
+    return (float(twice.sum()), twice @ lattice.centre / twice.sum()) if twice.any() else None
 
 
 class _Lattice(NamedTuple):
-    """Centres (n, dim) and edges (n, dim) of the cells of a lattice with ``shape`` cells along the axes."""
+    """A lattice of cells: their centres and widths along each axis, and centres (n, dim) and edges (n, dim) of all."""
 
+    axes: list[tuple[Array, Array]]
     centre: Array
     size: Array
-    shape: tuple[int, ...]
 
     @classmethod
     def over(cls, lower: Array, upper: Array, spacing: float, edges: Iterable[tuple[int, float]]) -> "_Lattice":
@@ -108,7 +152,38 @@ class _Lattice(NamedTuple):
             pieces.append((places[-1], after, spacing))
             centre = np.concatenate([start + (np.arange(count) + 0.5) * width for start, count, width in pieces])
             axes.append((centre, np.concatenate([np.full(count, width) for _, count, width in pieces])))
-        return cls(grid([a[0] for a in axes]), grid([a[1] for a in axes]), tuple(len(a[0]) for a in axes))
+        return cls(axes, grid([centre for centre, _ in axes]), grid([width for _, width in axes]))
+
+    def kinds(self, volume: Array) -> tuple[BoolArray, BoolArray, BoolArray]:
+        """Whether each cell, of which ``volume`` is inside, is cut, is full and near those, or is full and far."""
+        size = self.size.prod(axis=1)
+        full = volume > (1.0 - _ROUND_OFF) * size
+        cut = ~full & (volume > _ROUND_OFF * size)
+        mobile = self.grown(cut, _RINGS) & full
+        return cut, mobile, full & ~mobile
+
+    def chosen(self, cut: BoolArray, share: Array) -> BoolArray:
+        """Choose in each block of cells as many of those that are ``cut`` as they hold, with the largest shares first.
+
+        What is left over when the number in a block is rounded is carried to the next block.
+        """
+        cells = np.flatnonzero(cut)
+        index = np.unravel_index(cells, [len(centre) for centre, _ in self.axes])
+        _, block = np.unique(np.stack(index) // _BLOCK, axis=1, return_inverse=True)
+        block = block.ravel()
+        number = np.diff(np.floor(np.cumsum(np.bincount(block, share[cells])) + 0.5), prepend=0.0)
+        order = np.lexsort((cells, -share[cells].round(6), block))
+        first = np.searchsorted(block[order], np.arange(len(number)))
+        rank = np.arange(len(cells)) - first[block[order]]
+        found = np.zeros(len(cut), dtype=np.bool_)
+        found[cells[order][rank < number[block[order]]]] = True
+        return found
+
+    def filled(self, start: Array, mobile: BoolArray, fixed: BoolArray, samples: Array, weights: Array) -> Fill:
+        """Relax particles at ``start`` and in ``mobile`` cells; those in ``fixed`` cells stay."""
+        position, volume = _relaxed(np.vstack([start, self.centre[mobile]]), samples, weights)
+        fixed_volume = self.size[fixed].prod(axis=1)
+        return Fill(np.vstack([position, self.centre[fixed]]), np.concatenate([volume, fixed_volume]))
 
     def corners(self, cells: IntArray) -> tuple[Array, ...]:
         lower, upper = self.centre[cells] - 0.5 * self.size[cells], self.centre[cells] + 0.5 * self.size[cells]
@@ -116,19 +191,19 @@ class _Lattice(NamedTuple):
 
     def around(self, points: Array) -> BoolArray:
         """Whether each cell is the one in which a point lies, or its neighbour."""
-        found = np.zeros(self.shape, dtype=np.bool_)
-        index = []
-        for axis, count in enumerate(self.shape):
-            line = np.moveaxis(self.centre.reshape(*self.shape, -1)[..., axis], axis, 0).reshape(count, -1)[:, 0]
-            index.append(np.clip(np.searchsorted(line, points[:, axis]), 0, count - 1))
-        found[tuple(index)] = True
+        found = np.zeros([len(centre) for centre, _ in self.axes], dtype=np.bool_)
+        places = [
+            np.clip(np.searchsorted(centre, x), 0, len(centre) - 1)
+            for x, (centre, _) in zip(points.T, self.axes, strict=True)
+        ]
+        found[tuple(places)] = True
         return self.grown(found.ravel(), 1)
 
     def grown(self, cells: BoolArray, rings: int) -> BoolArray:
         from scipy.ndimage import binary_dilation
 
-        block = np.ones((3,) * len(self.shape))
-        return np.asarray(binary_dilation(cells.reshape(self.shape), block, iterations=rings).ravel())
+        block = cells.reshape([len(centre) for centre, _ in self.axes])
+        return np.asarray(binary_dilation(block, np.ones((3,) * block.ndim), iterations=rings).ravel())
 
 
 def straight_edges(area: Any) -> list[tuple[int, float]]:
@@ -142,20 +217,6 @@ def straight_edges(area: Any) -> list[tuple[int, float]]:
             straight = edge[:, axis] <= _ROUND_OFF * length
             found += [(-length[k], axis, points[k, axis]) for k in np.flatnonzero(straight)]
     return [(axis, float(place)) for _, axis, place in sorted(found)]
-
-
-def _evenly(cells: Any, share: Array, area: Any) -> BoolArray:
-    """Choose as many of the ``cells`` (n,) as they hold together: where the sum of their shares passes k + 1/2.
-
-    The sum follows the outline of ``area``, so that no part of it has more or fewer particles than another.
-    """
-    rings = shapely.get_parts(area.boundary)
-    centre = shapely.centroid(cells)
-    ring = shapely.distance(rings[:, None], centre).argmin(axis=0)
-    order = np.lexsort((shapely.line_locate_point(rings[ring], centre), ring))
-    chosen = np.zeros(len(cells), dtype=np.bool_)
-    chosen[order] = np.diff(np.floor(np.cumsum(share[order]) + 0.5), prepend=0.0) > 0.0
-    return chosen
 
 
 def _parts(boxes: Any) -> Any:

@@ -4,7 +4,20 @@ from typing import Annotated, Any, Self
 
 from pydantic import BaseModel, Field, model_validator
 
-from sphframe.geometry.shapes import Box, Circle, Curve, Difference, Ellipse, PointsFile, Polygon, Union, plane_area
+from sphframe.geometry.shapes import (
+    Box,
+    Circle,
+    Curve,
+    Cylinder,
+    Difference,
+    Ellipse,
+    Mesh,
+    PointsFile,
+    Polygon,
+    Sphere,
+    Union,
+    plane_area,
+)
 
 
 class InitialState(BaseModel):
@@ -66,6 +79,18 @@ class DifferenceRegion(Difference, InitialState):
     """A closed shape without others, full of fluid."""
 
 
+class SphereRegion(Sphere, InitialState):
+    """A ball of fluid (3-D)."""
+
+
+class CylinderRegion(Cylinder, InitialState):
+    """A circular cylinder full of fluid (3-D)."""
+
+
+class MeshRegion(Mesh, InitialState):
+    """The inside of a triangle mesh, full of fluid (3-D)."""
+
+
 Region = Annotated[
     PolygonRegion
     | BoxRegion
@@ -74,6 +99,9 @@ Region = Annotated[
     | CurveRegion
     | PointsRegion
     | UnionRegion
-    | DifferenceRegion,
+    | DifferenceRegion
+    | SphereRegion
+    | CylinderRegion
+    | MeshRegion,
     Field(discriminator="shape"),
 ]
