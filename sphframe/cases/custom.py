@@ -15,7 +15,9 @@ class Custom(Case):
     """Walls, fluid, bodies, probes and gauges, as fields here or as tables of a TOML file.
 
     All lengths in m. A polygonal wall has the fluid on its left when its points are traversed; a box wall contains
-    it. Water starts at rest below the highest point of the fluid. Bodies carry the walls that name them.
+    it. Bodies carry the walls that name them. Fluid fills closed shapes (``sphframe show circle`` describes one and
+    names the others), each with its own ``level`` (m) or ``pressure`` (Pa) and ``velocity`` (m/s); by default it starts
+    at rest, below the highest point of all regions that touch.
 
     Examples
     --------
@@ -36,7 +38,7 @@ class Custom(Case):
     title: ClassVar[str] = "walls, fluid, bodies, probes and gauges of your own"
 
     walls: tuple[Wall, ...] = quantity(..., "m", "walls, polygons or boxes", min_length=1)
-    fluid: tuple[Region, ...] = quantity(..., "m", "regions full of fluid, polygons or boxes", min_length=1)
+    fluid: tuple[Region, ...] = quantity(..., "m", "regions full of fluid, any closed shapes", min_length=1)
     bodies: dict[str, Component] = quantity({}, "1", "bodies that carry walls, by the name that the walls refer to")
     probes: tuple[Probe, ...] = quantity((), "m", "pressure sensors on walls")
     gauges: tuple[Gauge, ...] = quantity((), "m", "gauges of the free surface")

@@ -9,11 +9,15 @@ from rich.table import Table
 from rich.text import Text
 
 from sphframe.cases import Case, load_case, parameters_of, written
+from sphframe.geometry import SHAPES
 from sphframe.registry import KINDS, available, load
 
 
 def show_command(name: str, preset: str | None) -> None:
-    """Print the parameters of a case, or the options of a component."""
+    """Print the parameters of a case, the options of a component, or what a shape is made of."""
+    if name in SHAPES:
+        _show_shape(name)
+        return
     kinds = [kind for kind in KINDS if any(entry.name == name for entry in available(kind))]
     if kinds and "cases" not in kinds:
         _show_component(kinds[0], name)
@@ -52,6 +56,17 @@ def _show_component(kind: str, name: str) -> None:
     for parameter in parameters.values():
         default = "" if parameter.default is parameter.empty else f" = {parameter.default!r}"
         console.print(f"  {parameter.name}{default}", markup=False)
+
+
+def _show_shape(name: str) -> None:
+    model = SHAPES[name]
+    console = Console(highlight=False)
+    console.print(f'{name}, one of the shapes: shape = "{name}"\n', markup=False)
+    console.print(_prose(model.__doc__) + "\n", markup=False)
+    for field, info in model.model_fields.items():
+        if field != "shape":
+            console.print(f"  {field}{'' if info.is_required() else f' = {info.default!r}'}", markup=False)
+    console.print(f"\nThe shapes: {', '.join(SHAPES)}", markup=False)
 
 
 def _prose(docstring: str | None) -> str:

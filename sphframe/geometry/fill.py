@@ -36,9 +36,14 @@ def fill(region: Region, spacing: float) -> Fill:
     """Return the particles that fill ``region``, about one ``spacing`` (m) apart.
 
     They lie at the centres of lattice cells, stretched so that the lattice fits all straight edges of the outline that
-    are parallel to an axis and at least 1.5 spacings apart. Where an outline cuts cells, the
-    particles of these and of two cells around become the centres of their Voronoi cells within the region, by Lloyd's
-    algorithm: the first layer follows the outline, half a spacing inside, and each volume is that of a Voronoi cell.
+    are parallel to an axis and at least 1.5 spacings apart. Where an outline cuts cells, the particles of these and of
+    two cells around become the centres of their Voronoi cells within the region, by Lloyd's algorithm: the first layer
+    follows the outline, half a spacing inside, and each volume is that of a Voronoi cell.
+
+    Parameters
+    ----------
+    region: what is filled; the result is kept, so that the arrays are read-only.
+    spacing: m.
 
     References
     ----------
@@ -240,5 +245,6 @@ def _relaxed(position: Array, samples: Array, weights: Array) -> Fill:
         if np.array_equal(before, nearest):
             break
         moments = [np.bincount(nearest, weights * x, len(position)) for x in samples.T]
-        position = np.stack(moments, axis=1) / volume[:, None]
+        held = volume > 0.0
+        position, volume = np.stack(moments, axis=1)[held] / volume[held, None], volume[held]
     return Fill(position, volume)

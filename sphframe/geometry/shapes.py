@@ -426,8 +426,10 @@ AnyShape = Annotated[
     | Mesh,
     Field(discriminator="shape"),
 ]
-SHAPES = tuple(model.model_fields["shape"].default for model in get_args(get_args(AnyShape)[0]))
-"""names of the shapes, as in ``shape = "circle"``"""
+SHAPES: dict[str, type[Shape]] = {
+    model.model_fields["shape"].default: model for model in get_args(get_args(AnyShape)[0])
+}
+"""the shapes by name, as in ``shape = "circle"``"""
 
 Union.model_rebuild()
 Difference.model_rebuild()

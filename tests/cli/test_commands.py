@@ -74,6 +74,12 @@ def test_show_a_case() -> None:
     assert "0.004" in call("show", "dam-break", "--preset", "paper").stdout.partition("--preset")[0]
 
 
+def test_show_a_shape_lists_its_parts_and_the_other_shapes() -> None:
+    shown = call("show", "ellipse").stdout
+    for text in ("semi_axes", "angle = 0.0", "polygon", "mesh"):
+        assert text in shown
+
+
 def test_show_a_case_file_and_a_component(tmp_path: Path) -> None:
     path = tmp_path / "case.toml"
     path.write_text('case = "dam-break"\nwater_height = 0.45\n')
