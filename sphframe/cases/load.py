@@ -81,7 +81,7 @@ def _beside(value: Any, folder: Path) -> Any:
     if not isinstance(value, dict):
         return value
     found = {key: _beside(item, folder) for key, item in value.items()}
-    if value.get("shape") in SHAPES and isinstance(value.get("file"), str):
+    if str(value.get("shape")) in SHAPES and isinstance(value.get("file"), str):
         found["file"] = str(folder / value["file"])
     return found
 
