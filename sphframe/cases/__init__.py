@@ -5,7 +5,7 @@ from sphframe.cases.checks import CaseWarning, check_case
 from sphframe.cases.custom import Custom
 from sphframe.cases.load import load_case, read_toml
 from sphframe.cases.parameters import Component, Derived, quantity, with_default, written
-from sphframe.cases.scene import Diagnostic, Gauge, Probe, Scene
+from sphframe.cases.scene import Diagnostic, Gauge, Probe, Scene, WallPart
 from sphframe.interfaces import Fields
 
 __all__ = [
@@ -21,6 +21,7 @@ __all__ = [
     "Parameter",
     "Probe",
     "Scene",
+    "WallPart",
     "check_case",
     "load_case",
     "parameters_of",

@@ -118,6 +118,9 @@ def _dimension_problems(dim: int, scene: Scene) -> Iterator[str]:
             yield from expected(f"tangent of probe {probe.name!r}", len(probe.tangent), dim)
     for gauge in scene.gauges:
         yield from expected(f"position of gauge {gauge.name!r}", len(gauge.position), dim - 1)
+    for part in scene.wall_parts:
+        yield from expected(f"lower corner of part {part.name!r}", len(part.lower), dim)
+        yield from expected(f"upper corner of part {part.name!r}", len(part.upper), dim)
     for corner, name in zip(scene.domain, ("lower", "upper"), strict=True):
         yield from expected(f"{name} corner of the domain", len(corner), dim)
 
@@ -127,15 +130,21 @@ def _name_problems(scene: Scene) -> Iterator[str]:
         "walls": [wall.name for wall in scene.walls],
         "probes": [probe.name for probe in scene.probes],
         "gauges": [gauge.name for gauge in scene.gauges],
+        "walls and parts": [*{wall.name for wall in scene.walls}, *(part.name for part in scene.wall_parts)],
     }
     for what, names in named.items():
         for name, count in Counter(names).items():
             if count > 1:
                 yield f"{count} {what} are called {name!r}; each needs a different name"
-    for wall in scene.walls:
-        if wall.body is not None and wall.body not in scene.bodies:
-            known = ", ".join(scene.bodies) or "none"
-            yield f"wall {wall.name!r} belongs to body {wall.body!r}, which is not given; bodies: {known}"
+    carried = {"wall": scene.walls, "probe": scene.probes, "gauge": scene.gauges}
+    for what, members in carried.items():
+        for member in members:
+            if member.body is not None and member.body not in scene.bodies:
+                known = ", ".join(scene.bodies) or "none"
+                yield f"{what} {member.name!r} belongs to body {member.body!r}, which is not given; bodies: {known}"
+    for part in scene.wall_parts:
+        if part.wall not in named["walls"]:
+            yield f"part {part.name!r} is of wall {part.wall!r}, which is not given; walls: {', '.join(named['walls'])}"
 
 
 def _output_problems(case: Case) -> Iterator[str]:

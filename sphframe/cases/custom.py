@@ -7,7 +7,7 @@ import numpy as np
 from sphframe.arrays import Array
 from sphframe.cases.case import Case
 from sphframe.cases.parameters import Component, Derived, quantity, with_default
-from sphframe.cases.scene import Gauge, Probe, Scene
+from sphframe.cases.scene import Gauge, Probe, Scene, WallPart
 from sphframe.geometry import Region, Wall
 
 
@@ -42,6 +42,7 @@ class Custom(Case):
     bodies: dict[str, Component] = quantity({}, "1", "bodies that carry walls, by the name that the walls refer to")
     probes: tuple[Probe, ...] = quantity((), "m", "pressure sensors on walls")
     gauges: tuple[Gauge, ...] = quantity((), "m", "gauges of the free surface")
+    wall_parts: tuple[WallPart, ...] = quantity((), "m", "parts of walls on which force and moment are recorded")
     depth: float | None = quantity(
         None, "m", "still water depth H, the scale of pressure; by default the fluid's vertical extent", gt=0
     )
@@ -67,6 +68,7 @@ class Custom(Case):
             domain=self.domain or self._around_everything(lower, upper),
             probes=self.probes,
             gauges=self.gauges,
+            wall_parts=self.wall_parts,
             bodies={name: body.create("rigid_bodies") for name, body in self.bodies.items()},
         )
 

@@ -20,7 +20,9 @@ class Probe(BaseModel):
     position: tuple[float, ...] = Field(min_length=2, max_length=3)
     radius: Annotated[float, Field(ge=0)] = 0.0
     tangent: Annotated[tuple[float, ...], Field(min_length=2, max_length=3)] | None = None
-    """direction along the wall, needed for a disc"""
+    """direction along the wall, of any length, needed for a disc"""
+    body: str | None = None
+    """name of the body that carries the probe; None means a probe at rest"""
 
     @model_validator(mode="after")
     def _disc_has_a_direction(self) -> "Probe":
@@ -38,6 +40,19 @@ class Gauge(BaseModel):
 
     name: str = Field(min_length=1, max_length=64)
     position: tuple[float, ...] = Field(min_length=1, max_length=2)
+    body: str | None = None
+    """name of the body with which the gauge moves horizontally; None means a gauge at rest"""
+
+
+class WallPart(BaseModel):
+    """A part of the wall ``wall``, as drawn, within a box: force and moment on it are recorded by its name."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    name: str = Field(min_length=1, max_length=64)
+    wall: str
+    lower: tuple[float, ...] = Field(min_length=2, max_length=3)
+    upper: tuple[float, ...] = Field(min_length=2, max_length=3)
 
 
 @dataclass(frozen=True)
@@ -71,3 +86,4 @@ class Scene:
     initial_pressure: Callable[[Array], Array] | None = None
     """p(position (n, dim)) -> (n,), Pa; None is the compressible rest state below the still water level"""
     diagnostics: tuple[Diagnostic, ...] = ()
+    wall_parts: tuple[WallPart, ...] = ()

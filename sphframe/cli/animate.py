@@ -13,7 +13,7 @@ from sphframe.output import open_dataset
 def animate_command(path: Path, *, field: str, output: Path | None, frames_per_second: float) -> None:
     """Write a film of a run that is complete or still running."""
     target = output or path.with_suffix(".mp4")
-    console = Console(stderr=True)
+    console = Console(stderr=True, markup=False)
     began = time.monotonic()
     with open_dataset(path) as dataset:
         count = animate_run(

@@ -29,7 +29,7 @@ def bench_command(
         _check_target(json_file)
     with _shown_progress() as tell:
         report = bench(counts, parallel, sections, tell=tell)
-    console = Console(highlight=False, soft_wrap=True, width=None if sys.stdout.isatty() else 240)
+    console = Console(markup=False, highlight=False, soft_wrap=True, width=None if sys.stdout.isatty() else 240)
     for table in _tables(report):
         console.print(table, "")
     if json_file is not None:

@@ -43,7 +43,7 @@ def compare_command(
             scheduler=scheduler,
             on_progress=on_progress,
         )
-    screen = Console(highlight=False, soft_wrap=True)
+    screen = Console(markup=False, highlight=False, soft_wrap=True)
     screen.print(_table(comparison.dataset))
     screen.print(f"error: {comparison.dataset['error'].attrs['long_name']}", markup=False)
     for path in (output / "comparison.nc", comparison.report):

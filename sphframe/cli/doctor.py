@@ -24,7 +24,7 @@ _PACKAGES = ("numpy", "scipy", "numba", "llvmlite", "xarray", "netCDF4", "pydant
 
 def doctor_command() -> None:
     """Print versions, threads, the compiler's cache and the state of all plugins; exit with 1 if one is broken."""
-    console = Console(highlight=False, soft_wrap=True)
+    console = Console(markup=False, highlight=False, soft_wrap=True)
     table = Table(box=None, show_header=False, pad_edge=False)
     table.add_row("sphframe", f"{sphframe.__version__} in {Path(sphframe.__file__).parent}")
     table.add_row("Python", f"{platform.python_version()} in {sys.prefix}, {platform.platform()}")

@@ -12,7 +12,7 @@ from sphframe.output import open_dataset
 def export_command(path: Path, *, to: str, output: Path | None) -> None:
     """Write a run for ParaView, or its sampled series as a table."""
     folder = output or path.with_name(f"{path.stem}-{to}")
-    console = Console(stderr=True)
+    console = Console(stderr=True, markup=False)
     with open_dataset(path) as dataset:
         files = export_run(
             dataset,

@@ -66,13 +66,13 @@ def _report(error: BaseException) -> int:
 
 def _print_error(message: str) -> None:
     first, *rest = message.splitlines() or [""]
-    console = Console(stderr=True, highlight=False, soft_wrap=True)
+    console = Console(stderr=True, markup=False, highlight=False, soft_wrap=True)
     console.print(Text.assemble(("error: ", "bold red"), first))
     for line in rest:
         console.print(Text(line))
 
 
 def _print_warning(message: Warning | str, category: type[Warning], *_: Any) -> None:
-    Console(stderr=True, highlight=False, soft_wrap=True).print(
+    Console(stderr=True, markup=False, highlight=False, soft_wrap=True).print(
         Text.assemble(("warning: ", "bold yellow"), " ".join(str(message).split()))
     )

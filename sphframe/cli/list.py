@@ -16,4 +16,4 @@ def list_command(kind: str | None) -> None:
         for entry in available(one):
             origin = f"{entry.distribution} {entry.version}"
             table.add_row(one, entry.name, origin, Text(entry.error or "", style="red"))
-    Console(highlight=False).print(table)
+    Console(markup=False, highlight=False).print(table)

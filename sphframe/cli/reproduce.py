@@ -41,4 +41,4 @@ def reproduce_command(
     except KeyboardInterrupt:
         log.print("finished runs are kept; repeat the command to continue")
         raise
-    Console(highlight=False, soft_wrap=True).print(f"wrote {report}", markup=False)
+    Console(markup=False, highlight=False, soft_wrap=True).print(f"wrote {report}", markup=False)

@@ -60,7 +60,7 @@ def console_log() -> Console:
     """Return the console on which a command reports its progress; show repeated warnings too."""
     warnings.simplefilter("always", CaseWarning)
     warnings.simplefilter("always", ResumeWarning)
-    return Console(stderr=True, highlight=False, soft_wrap=True)
+    return Console(stderr=True, markup=False, highlight=False, soft_wrap=True)
 
 
 def picture_of(path: Path) -> Path:
@@ -84,7 +84,7 @@ def run_with_progress(
 
 def report_run(case: Case, path: Path) -> None:
     """Print the key figures of the run in ``path`` and draw its picture."""
-    screen = Console(highlight=False, soft_wrap=True)
+    screen = Console(markup=False, highlight=False, soft_wrap=True)
     with open_dataset(path) as dataset:
         screen.print(_table(case, summary(dataset)))
         screen.print(f"wrote {path}")

@@ -31,7 +31,7 @@ def show_command(name: str, preset: str | None) -> None:
 
 def _show_case(model: type[Case], name: str, case: Case | None) -> None:
     """Print the parameters with their values in ``case``, or with their defaults; the case's own come first."""
-    console = Console(highlight=False)
+    console = Console(markup=False, highlight=False)
     console.print(f"{name}: {model.title}\n", markup=False)
     console.print(_prose(model.__doc__) + "\n", markup=False)
     table = Table(box=None, pad_edge=False)
@@ -49,7 +49,7 @@ def _show_case(model: type[Case], name: str, case: Case | None) -> None:
 
 def _show_component(kind: str, name: str) -> None:
     component = load(kind, name)
-    console = Console(highlight=False)
+    console = Console(markup=False, highlight=False)
     console.print(f"{name}, one of {kind}\n", markup=False)
     console.print(_prose(component.__doc__) + "\n", markup=False)
     parameters = inspect.signature(component).parameters if inspect.isclass(component) else {}

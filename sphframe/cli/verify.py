@@ -68,7 +68,7 @@ def verify(names: Sequence[str] = (), *, as_json: bool = False) -> int:
         print(json.dumps([report.as_data() for report in reports], indent=2))
         return int(any(report.broken for report in reports))
 
-    console = Console(highlight=False)
+    console = Console(markup=False, highlight=False)
     if console.is_terminal:
         with console.status("verifying") as status:
             reports = list(reports_of(names, progress=lambda text: status.update(f"verifying {text}")))
@@ -79,7 +79,7 @@ def verify(names: Sequence[str] = (), *, as_json: bool = False) -> int:
 
 
 def _print(reports: "Sequence[Report]") -> None:
-    console = Console(highlight=False, soft_wrap=True, width=None if sys.stdout.isatty() else 160)
+    console = Console(markup=False, highlight=False, soft_wrap=True, width=None if sys.stdout.isatty() else 160)
     methods = [report for report in reports if report.kind == "interpolators"]
     if methods:
         console.print(_table(methods))

@@ -8,7 +8,7 @@ from sphframe.interfaces.equation_of_state import EquationOfState
 from sphframe.interfaces.integrator import Integrator, System
 from sphframe.interfaces.kernel import CompiledKernel, Kernel
 from sphframe.interfaces.rigid_body import Motion, RigidBody, Solid, Surroundings
-from sphframe.interfaces.run_view import Fields, ResumableRun, RunView
+from sphframe.interfaces.run_view import Fields, ResumableRun, RunView, WallLoad
 from sphframe.interfaces.traits import DRY, OK, SINGULAR, TOO_FEW, EvaluationPoint, Status, Traits
 
 __all__ = [
@@ -32,5 +32,6 @@ __all__ = [
     "Surroundings",
     "System",
     "Traits",
+    "WallLoad",
     "WeightsFunction",
 ]

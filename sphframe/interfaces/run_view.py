@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, runtime_checkable
 
 from numpy.typing import NDArray
 
-from sphframe.arrays import Array, IntArray
+from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.interfaces.rigid_body import Motion
 
 if TYPE_CHECKING:  # the types alone: at run time the interfaces import no other room
@@ -22,6 +22,19 @@ class Fields(NamedTuple):
     velocity: Array
     density: Array
     pressure: Array
+
+
+class WallLoad(NamedTuple):
+    """Force (dim,), N, and moment, N m, of the fluid on a wall, by reaction and by pressure; in 2-D per metre of width.
+
+    Moments have shape (1,) in 2-D and (3,) in 3-D. They refer to the present centre of the body that carries the wall,
+    or to the origin.
+    """
+
+    force: Array
+    force_by_pressure: Array
+    moment: Array
+    moment_by_pressure: Array
 
 
 class GhostView(Protocol):
@@ -109,6 +122,12 @@ class RunView(Protocol):
 
     def body_motions(self) -> dict[str, Motion]:
         """Return the present motion of each body."""
+
+    def probe_readings(self) -> tuple[Array, BoolArray]:
+        """Return the pressure at each probe (p,), Pa, 0 where it is dry, and whether it is wet (p,)."""
+
+    def wall_loads(self) -> dict[str, WallLoad]:
+        """Return force and moment on each wall and each named part of a wall."""
 
     def wall_forces(self) -> dict[str, tuple[Array, Array]]:
         """Return the force on each wall, N (2-D: per metre of width): reaction of the ghosts, integrated pressure."""

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 from typing import Any
 
@@ -26,6 +27,17 @@ def planned_size(simulation: RunView) -> tuple[int, int]:
         if all(d in lengths for d in variable.dimensions) and variable.type == "f8"
     )
     return 8 * numbers, frames
+
+
+def sample_count(until: float, interval: float, time_step: float | None) -> int:
+    """Return the number of samples of a complete run: one at the start, and one at or after each ``interval``, s.
+
+    There is at most one per step; a fixed ``time_step`` above the interval gives one for each step.
+    """
+    if time_step is not None and time_step > interval:
+        return int(np.ceil(until / time_step)) + 1
+    last = round(until / interval)
+    return last + (until >= last * interval - 1e-9 * interval)  # as the run loop finds whether a sample is due
 
 
 def write_start(file: netCDF4.Dataset, simulation: RunView, run_id: str) -> None:
@@ -58,13 +70,17 @@ def sample_of(simulation: RunView) -> dict[str, Any]:
         **simulation.diagnostics(),
     }
     if scene.probes:
-        sample["probe_pressure"] = simulation.probe_pressures()
+        sample["probe_pressure"], sample["probe_wet"] = simulation.probe_readings()
     if scene.gauges:
         sample["gauge_elevation"] = simulation.gauge_elevations()
     if scene.walls:
-        forces = simulation.wall_forces()
-        sample["wall_force"] = [forces[wall.name][0] for wall in scene.walls]
-        sample["wall_force_by_pressure"] = [forces[wall.name][1] for wall in scene.walls]
+        loads, squeezed = simulation.wall_loads(), 0 if simulation.case.dimension == 2 else slice(None)
+        for where, members in (("wall", scene.walls), ("part", scene.wall_parts)):
+            found = [loads[member.name] for member in members]
+            for name in ("force", "force_by_pressure") if found else ():
+                sample[f"{where}_{name}"] = [getattr(load, name) for load in found]
+            for name in ("moment", "moment_by_pressure") if found else ():
+                sample[f"{where}_{name}"] = [getattr(load, name)[squeezed] for load in found]
     if scene.bodies:
         motions = simulation.body_motions()
         for name in ("position", "velocity", "acceleration"):
@@ -93,13 +109,14 @@ def _dimensions(simulation: RunView) -> dict[str, int | None]:
         "probe": len(scene.probes),
         "gauge": len(scene.gauges),
         "wall": len(scene.walls),
+        "part": len(scene.wall_parts),
         "body": len(scene.bodies),
         "status": len(Status),
         "outline": len(outlines),
         "node": sum(map(len, outlines)),
         "ghost": simulation.ghost_count,
         "particle": simulation.fluid_count,
-        "probe_time": int(np.ceil(case.until / case.probe_interval)) + 2,
+        "probe_time": sample_count(case.until, case.probe_interval, case.time_step),
     }
     return {**{name: length for name, length in lengths.items() if length > 0}, "time": None}
 
@@ -141,6 +158,8 @@ def _variables(simulation: RunView) -> dict[str, Variable]:
             raise OutputError(f"the case's diagnostic {diagnostic.name!r} has the name of another variable: rename it")
         diagnostics[diagnostic.name] = Variable(("probe_time",), diagnostic.unit, diagnostic.long_name)
     known = {name: variable for name, variable in VARIABLES.items() if name not in absent}
+    if dimension == 2:  # moments are scalars
+        known |= {name: replace(v, dimensions=v.dimensions[:-1]) for name, v in known.items() if "_moment" in name}
     mass = known.pop("particle_mass")
     fixed = {name: variable for name, variable in known.items() if "time" not in variable.dimensions}
     return {**fixed, **diagnostics, "particle_mass": mass, **known}
@@ -154,6 +173,7 @@ def _names(simulation: RunView) -> dict[str, Sequence[str]]:
         "probe": [probe.name for probe in scene.probes],
         "gauge": [gauge.name for gauge in scene.gauges],
         "wall": [wall.name for wall in scene.walls],
+        "part": [part.name for part in scene.wall_parts],
         "body": list(scene.bodies),
         "status": [status.name for status in Status],
     }
@@ -178,8 +198,13 @@ def _fill_start(file: netCDF4.Dataset, simulation: RunView) -> None:
         file["outline_node"][:] = np.concatenate([line for _, line in lines])
         file["outline_node_count"][:] = [len(line) for _, line in lines]
         file["outline_wall"][:] = [index for index, _ in lines]
-        bodies = list(scene.bodies)
-        file["wall_body"][:] = [-1 if wall.body is None else bodies.index(wall.body) for wall in scene.walls]
+        walls = [wall.name for wall in scene.walls]
+        if scene.wall_parts:
+            file["part_wall"][:] = [walls.index(part.wall) for part in scene.wall_parts]
+    bodies: dict[str | None, int] = {None: -1, **{name: index for index, name in enumerate(scene.bodies)}}
+    for name, members in (("wall", scene.walls), ("probe", scene.probes), ("gauge", scene.gauges)):
+        if members:
+            file[f"{name}_body"][:] = [bodies[member.body] for member in members]
     if simulation.ghost_count:
         ghosts = simulation.ghosts
         file["ghost_position"][:] = ghosts.position

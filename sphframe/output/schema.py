@@ -73,6 +73,7 @@ VARIABLES: Mapping[str, Variable] = {
     "probe": _text(("probe",), "pressure probe"),
     "gauge": _text(("gauge",), "free-surface gauge"),
     "wall": _text(("wall",), "wall"),
+    "part": _text(("part",), "named part of a wall"),
     "body": _text(("body",), "body that carries walls"),
     "status": _text(("status",), "what became of the interpolation to a ghost particle"),
     # constant during a run
@@ -86,6 +87,9 @@ VARIABLES: Mapping[str, Variable] = {
     "probe_radius": Variable(("probe",), "m", "radius over which the probe averages; 0 for a point"),
     "gauge_x": Variable(("gauge",), "m", "position of the gauge along x"),
     "gauge_y": Variable(("gauge",), "m", "position of the gauge along y"),
+    "probe_body": Variable(("probe",), "1", "index of the body that carries the probe; -1 for a probe at rest", "i4"),
+    "gauge_body": Variable(("gauge",), "1", "index of the body that carries the gauge; -1 for a gauge at rest", "i4"),
+    "part_wall": Variable(("part",), "1", "index of the wall of which it is a part", "i4"),
     "outline_node": Variable(("node", "space"), "m", "points of the polylines that draw the walls, at the start"),
     "outline_node_count": Variable(
         ("outline",), "1", "points of each polyline", "i4", attributes={"sample_dimension": "node"}
@@ -100,6 +104,7 @@ VARIABLES: Mapping[str, Variable] = {
     "time_step": Variable(("probe_time",), "s", "time step"),
     "wall_clock": Variable(("probe_time",), "s", "wall-clock time since the start of the run"),
     "probe_pressure": Variable(("probe_time", "probe"), "Pa", "pressure at the probe"),
+    "probe_wet": Variable(("probe_time", "probe"), "1", "1 where the probe is wet, 0 where it is dry", "i4"),
     "gauge_elevation": Variable(("probe_time", "gauge"), "m", "elevation of the free surface"),
     "kinetic_energy": Variable(("probe_time",), "J", "kinetic energy", per_width=True),
     "potential_energy": Variable(("probe_time",), "J", "potential energy", per_width=True),
@@ -116,6 +121,23 @@ VARIABLES: Mapping[str, Variable] = {
     ),
     "wall_force_by_pressure": Variable(
         ("probe_time", "wall", "space"), "N", "force of the fluid on the wall, integral of pressure", per_width=True
+    ),
+    **{
+        f"{where}_moment{suffix}": Variable(
+            ("probe_time", where, "space"),
+            "N m",
+            f"moment of the fluid on the {what}, {how}",
+            per_width=True,
+            attributes={"comment": "about the present centre of the body that carries the wall, or the origin"},
+        )
+        for where, what in (("wall", "wall"), ("part", "part of a wall"))
+        for suffix, how in (("", "reaction of its ghosts"), ("_by_pressure", "integral of pressure"))
+    },
+    "part_force": Variable(
+        ("probe_time", "part", "space"), "N", "force of the fluid on the part, reaction of its ghosts", per_width=True
+    ),
+    "part_force_by_pressure": Variable(
+        ("probe_time", "part", "space"), "N", "force of the fluid on the part, integral of pressure", per_width=True
     ),
     "body_position": Variable(("probe_time", "body", "motion"), "m", "displacement of the body (angles in rad)"),
     "body_velocity": Variable(("probe_time", "body", "motion"), "m s-1", "velocity of the body (angles in rad)"),

@@ -10,12 +10,14 @@ from sphframe.arrays import Array, IntArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.cases import Case, Scene
 from sphframe.compiled import specialise
-from sphframe.geometry import directions_to_world, to_body_frame, to_world, wall_panels
-from sphframe.interfaces import Fields, Motion, Status
+from sphframe.geometry import to_body_frame, wall_panels
+from sphframe.interfaces import Fields, Motion, Status, WallLoad
+from sphframe.kernels import kernel_value
 from sphframe.physics import sample_points
 from sphframe.simulation.components import Components
-from sphframe.simulation.probes import Gauges, PressureProbes
+from sphframe.simulation.probes import Gauges, PressureProbes, Readings
 from sphframe.simulation.system import FluidSystem
+from sphframe.simulation.wall_loads import WallLoads
 
 
 class Observation:
@@ -39,9 +41,11 @@ class Observation:
         self.particle_count = system.fluid_count
         self.ghost_count = self.boundary.count
         self._lower, self._upper = (np.array(corner, dtype=np.float64) for corner in scene.domain)
-        self._probes = PressureProbes(scene.probes, case.dimension)
-        self._gauges = Gauges(scene.gauges, self._lower, self._upper, 0.25 * case.particle_spacing)
-        self._panels = wall_panels(scene.walls, case.particle_spacing)
+        self._probes = PressureProbes(scene.probes, case.dimension, list(scene.bodies))
+        self._gauges = Gauges(scene.gauges, self._lower, self._upper, 0.25 * case.particle_spacing, list(scene.bodies))
+        self._solid = self._solid_share(self._probes.points)
+        panels = wall_panels(scene.walls, case.particle_spacing)
+        self._wall_loads = WallLoads(system, scene.walls, scene.wall_parts, panels, self.sample)
         self._sample: Callable[..., None] = specialise(sample_points, components.parts)
 
     @property
@@ -100,13 +104,29 @@ class Observation:
         self._sample(points, self.system.rows, lists, counts, self.parameters, pressures, fillings)
         return pressures, fillings
 
+    def _solid_share(self, points: Array) -> Array:
+        """Return the share of the kernel at ``points`` (k, dim) that is within walls, at present."""
+        ghosts, columns = self.system.rows[self.fluid_count :], self.columns
+        shares = np.zeros(len(points))
+        for k, point in enumerate(points):
+            distance = np.linalg.norm(ghosts[:, columns.position] - point, axis=1)
+            near = distance < self.support
+            weights = kernel_value(self.components.kernel, distance[near], self.smoothing_length, columns.dim)
+            shares[k] = weights @ ghosts[near, columns.volume]
+        return shares
+
+    def probe_readings(self) -> Readings:
+        """Return the pressure at each probe, Pa, 0 where it is dry, and whether it is wet."""
+        points = self._probes.present_points(self.system.bodies.motions, self.boundary.centres)
+        return self._probes.readings(*self.sample(points), self._solid)
+
     def probe_pressures(self) -> Array:
-        """Return the pressure at each probe, Pa."""
-        return self._probes.average(self.sample(self._probes.points)[0])
+        """Return the pressure at each probe, Pa; 0 where it is dry."""
+        return self.probe_readings().pressure
 
     def gauge_elevations(self) -> Array:
         """Return the elevation of the free surface at each gauge, m; NaN where dry."""
-        return self._gauges.elevations(self.sample(self._gauges.points)[1])
+        return self._gauges.elevations(self.sample(self._gauges.present_points(self.system.bodies.motions))[1])
 
     def diagnostics(self) -> dict[str, float]:
         """Return the case's own diagnostics; those of a body see positions in the frame in which it was drawn."""
@@ -158,27 +178,10 @@ class Observation:
         """Return the motion of each body at present."""
         return self.system.bodies.present_motions()
 
-    def wall_forces(self) -> dict[str, tuple[Array, Array]]:
-        """Return the force on each wall, N, by the ghosts' reaction and by integrated pressure.
+    def wall_loads(self) -> dict[str, WallLoad]:
+        """Return force and moment on each wall and named part, see :mod:`sphframe.simulation.wall_loads`."""
+        return self._wall_loads()
 
-        Above the water, where the kernel average still reaches it, the lifted pressure is negative: it is left out.
-        """
-        self.system.refresh_pressure()
-        self.system.update_loads()
-        centre, area = self._panels.centre.copy(), self._panels.area.copy()
-        for index, body in enumerate(self.boundary.wall_body):
-            if body >= 0:
-                own = self._panels.wall == index
-                position = self.system.bodies.motions[body].position
-                centre[own] = to_world(centre[own], position, self.boundary.centres[body])
-                area[own] = directions_to_world(area[own], position)
-        pressure, filling = self.sample(centre)
-        pressure[(filling < 0.4) & (pressure < 0.0)] = 0.0  # within the water a wall's filling is one half
-        forces = pressure[:, None] * area
-        return {
-            wall.name: (
-                self.system.loads[index, : self.case.dimension].copy(),
-                forces[self._panels.wall == index].sum(axis=0),
-            )
-            for index, wall in enumerate(self.scene.walls)
-        }
+    def wall_forces(self) -> dict[str, tuple[Array, Array]]:
+        """Return the force on each wall and named part, N, by the ghosts' reaction and by integrated pressure."""
+        return {name: (load.force, load.force_by_pressure) for name, load in self.wall_loads().items()}

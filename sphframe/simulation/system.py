@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sphframe.arrays import Array, BoolArray
+from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.contact import put_back
 from sphframe.boundary.filling import Filling
@@ -157,16 +157,37 @@ class FluidSystem(System):
 
     def update_loads(self) -> None:
         """Compute force and moment of the fluid on each wall."""
-        lists, boundary, motions = self.lists, self.boundary, self.bodies.motions
+        shares = self.boundary.corner_shares(self.bodies.motions)
+        self._react(self.boundary.wall, shares, self.references(), self._partial_loads, self.loads)
+
+    def _react(
+        self, walls: IntArray, shares: tuple[IntArray, Array], centres: Array, partial: Array, loads: Array
+    ) -> None:
+        lists = self.lists
+        self._wall_reaction(
+            self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, walls, *shares, centres,
+            self.parameters, partial, loads,
+        )  # fmt: skip
+
+    def references(self) -> Array:
+        """Return the points (walls, dim) to which moments refer: the centre of the wall's body, or the origin, m."""
+        boundary = self.boundary
         centres = np.zeros((len(boundary.wall_body), boundary.dim))
         for wall, body in enumerate(boundary.wall_body):
             if body >= 0:
-                centres[wall] = boundary.centres[body] + motions[body].position[: boundary.dim]
-        self._wall_reaction(
-            self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, boundary.wall,
-            *boundary.corner_shares(motions), centres, self.parameters,
-            self._partial_loads, self.loads,
-        )  # fmt: skip
+                centres[wall] = boundary.centres[body] + self.bodies.motions[body].position[: boundary.dim]
+        return centres
+
+    def reaction_of(self, ghosts: BoolArray, wall: int) -> Array:
+        """Return force and moment (3 or 6,) of the fluid on some ``ghosts`` (g,) of a wall, without corner shares."""
+        boundary = self.boundary
+        shares = np.full(boundary.count, -1), np.zeros_like(boundary.position)
+        loads = np.zeros((2, self.bodies.size))  # the second is of all other ghosts
+        self._react(
+            np.where(ghosts, 0, 1), shares, self.references()[[wall, wall]], np.zeros((64, *loads.shape)), loads
+        )
+        own: Array = loads[0]
+        return own
 
     def _update_body_rates(self, time: float) -> None:
         if not len(self.bodies):

@@ -14,7 +14,7 @@ import numpy as np
 
 from sphframe.cases import Case, Diagnostic, Fields, Gauge, Probe, Scene
 from sphframe.geometry import BoxRegion, PolygonWall
-from sphframe.interfaces import Motion, RigidBody, Status
+from sphframe.interfaces import Motion, RigidBody, Status, WallLoad
 from sphframe.output import NetCDFWriter
 
 
@@ -74,6 +74,9 @@ class FakeSimulation:
     def probe_pressures(self) -> Any:
         return 100.0 * self.time + np.arange(len(self.scene.probes))
 
+    def probe_readings(self) -> Any:
+        return self.probe_pressures(), np.ones(len(self.scene.probes), np.bool_)
+
     def gauge_elevations(self) -> Any:
         return np.array([0.5])
 
@@ -91,8 +94,9 @@ class FakeSimulation:
     def body_motions(self) -> dict[str, Motion]:
         return {"paddle": self.scene.bodies["paddle"].motion(self.time, None, None, None)}
 
-    def wall_forces(self) -> dict[str, Any]:
-        return {wall.name: (np.array([1.0, 2.0]), np.array([1.5, 2.5])) for wall in self.scene.walls}
+    def wall_loads(self) -> dict[str, Any]:
+        load = WallLoad(np.array([1.0, 2.0]), np.array([1.5, 2.5]), np.array([3.0]), np.array([3.5]))
+        return {wall.name: load for wall in self.scene.walls}
 
     def particles_outside(self) -> int:
         return 0
