@@ -12,7 +12,6 @@ from sphframe.cases import Case, Scene
 from sphframe.compiled import specialise
 from sphframe.geometry import to_body_frame, wall_panels
 from sphframe.interfaces import Fields, Motion, Status, WallLoad
-from sphframe.kernels import kernel_value
 from sphframe.physics import sample_points
 from sphframe.simulation.components import Components
 from sphframe.simulation.probes import Gauges, PressureProbes, Readings
@@ -111,8 +110,8 @@ class Observation:
         for k, point in enumerate(points):
             distance = np.linalg.norm(ghosts[:, columns.position] - point, axis=1)
             near = distance < self.support
-            weights = kernel_value(self.components.kernel, distance[near], self.smoothing_length, columns.dim)
-            shares[k] = weights @ ghosts[near, columns.volume]
+            weights = [self.components.compiled_kernel.value(r / self.smoothing_length) for r in distance[near]]
+            shares[k] = self.parameters.kernel_scale * float(weights @ ghosts[near, columns.volume])
         return shares
 
     def probe_readings(self) -> Readings:
