@@ -4,17 +4,17 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from sphframe.arrays import Array, IntArray
-from sphframe.boundary.corners import Corners
+from sphframe.arrays import Array
+from sphframe.boundary.corners import Corners, Shares
 from sphframe.boundary.movement import move_ghosts
-from sphframe.geometry import BoxWall, PolygonWall, rotation_matrix, wall_ghosts
+from sphframe.geometry import Shape, Wall, ghosts_of, rotation_matrix, wall_groups
 from sphframe.interfaces import EvaluationPoint, Motion, RigidBody, Status
 
 _STATE = ("position", "mirror", "reflection", "velocity", "acceleration", "driving", "statuses")
 
 
 class Boundary:
-    """Fixed ghost particles of ``walls``, carried by ``bodies``.
+    """Fixed ghost particles of ``walls``, carried by ``bodies``; ``fluid`` at the start tells which sides are wet.
 
     Attributes
     ----------
@@ -22,6 +22,7 @@ class Boundary:
     points: (g, dim) where the method evaluates the fluid; ``lifts`` (g, dim) from there to the ghosts.
     reflection: (g, dim, dim) maps the fluid's velocity relative to the wall to that of the ghost.
     velocity, acceleration: (g, dim) of the wall at each ghost; ``driving`` (g, dim): rho0 (f - a_wall), N/m^3.
+    volume: (g,) of each ghost, m^dim; ``groups``: the walls of each body, ``group_body`` its index, -1 at rest.
     wall: (g,) index of each ghost's wall; ``body`` (g,) index of its body, -1 at rest.
     wall_body: (walls,) index of each wall's body, -1 at rest; ``centres`` (bodies, dim) as drawn, m.
     statuses: (g,) :class:`Status` of the last filling.
@@ -29,25 +30,29 @@ class Boundary:
 
     def __init__(
         self,
-        walls: Sequence[PolygonWall | BoxWall],
+        walls: Sequence[Wall],
         bodies: Mapping[str, RigidBody],
         evaluation_point: EvaluationPoint,
         *,
+        fluid: Sequence[Shape],
         spacing: float,
         support: float,
         no_slip: bool,
     ) -> None:
-        drawn = wall_ghosts(tuple(walls), spacing, int(np.ceil(support / spacing - 1e-9)))
+        groups = wall_groups(tuple(walls), fluid, spacing)
+        self.groups = [group for _, group in groups]
+        drawn = ghosts_of(self.groups, spacing, int(np.ceil(support / spacing - 1e-9)))
         self.dim = drawn.position.shape[1]
         self.bodies = dict(bodies)
         names = list(self.bodies)
-        self.wall = drawn.wall
+        self.wall, self.volume = drawn.wall, drawn.volume
+        self.group_body = np.array([-1 if body is None else names.index(body) for body, _ in groups], np.int64)
         self.wall_body = np.array([-1 if wall.body is None else names.index(wall.body) for wall in walls], np.int64)
         self.body = self.wall_body[drawn.wall]
         self.centres = np.zeros((len(names), self.dim))
         for k, body in enumerate(self.bodies.values()):
             self.centres[k, : len(body.centre)] = body.centre
-        self._corners = Corners(walls, self.wall_body, self.centres, 1.5 * support)
+        self._corners = Corners(self.groups, drawn, self.wall_body, self.centres, 1.5 * support)
         self._drawn = drawn
         self._drawn_reflection = np.tile(-np.eye(self.dim), (len(self.wall), 1, 1)) if no_slip else drawn.reflection
         self.position = drawn.position.copy()
@@ -91,9 +96,9 @@ class Boundary:
         self.driving += driving_force
         rows[:, : self.dim] = self.position
 
-    def corner_shares(self, motions: Sequence[Motion]) -> tuple[IntArray, Array]:
-        """Other wall (g,) that takes part of each ghost's force, or -1, and its normal (g, dim)."""
-        return self._corners.shares(self.position, self.wall, motions)
+    def corner_shares(self, motions: Sequence[Motion]) -> Shares:
+        """Return the second walls that take part of the forces on ghosts."""
+        return self._corners.shares(self.position, motions)
 
     def state(self) -> dict[str, Array]:
         """Return copies of all arrays that change during a run, by name."""

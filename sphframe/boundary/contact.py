@@ -60,7 +60,7 @@ def put_back(  # type: ignore[no-untyped-def]
                     across = rows[ghost, d] - mirror[g, d]
                     span += across * across
                     depth += (rows[i, d] - 0.5 * (rows[ghost, d] + mirror[g, d])) * across
-                if depth > 0.0:
+                if depth > 1e-12 * span:
                     span = math.sqrt(span)
                     depth /= span
                     into = 0.0

@@ -1,7 +1,7 @@
 """Cases: contradictions between the regions of fluid, and between them and the walls."""
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -9,7 +9,8 @@ import shapely
 
 from sphframe.arrays import Array
 from sphframe.cases.scene import Scene
-from sphframe.geometry import Region, common_part, fill
+from sphframe.errors import InputError
+from sphframe.geometry import Region, WallGroup, common_part, fill, wall_groups
 
 _THIN = 0.01
 """thickness over spacing below which an overlap or a gap is round-off"""
@@ -19,24 +20,31 @@ _NARROW = 0.75
 
 def fluid_problems(scene: Scene, spacing: float) -> Iterator[str]:
     """Yield what is wrong with the regions of fluid, for particles one ``spacing`` (m) apart."""
+    try:
+        groups = [group for _, group in wall_groups(scene.walls, scene.fluid, spacing)]
+    except InputError as error:
+        yield str(error)
+        return
     for index, region in enumerate(scene.fluid):
-        yield from _region_problems(scene, index, region, spacing)
+        yield from _region_problems(scene, index, region, groups, spacing)
         if scene.initial_pressure is not None and (region.level is not None or region.pressure is not None):
             yield f"fluid[{index}] has a level or pressure, but the case gives its own initial pressure; leave it out"
     yield from _overlaps(scene.fluid, spacing)
 
 
-def _region_problems(scene: Scene, index: int, region: Region, spacing: float) -> Iterator[str]:
+def _region_problems(
+    scene: Scene, index: int, region: Region, groups: Sequence[WallGroup], spacing: float
+) -> Iterator[str]:
     position = fill(region, spacing).position
     if len(position) == 0:
         yield f"fluid[{index}] holds no particle; enlarge it or choose a smaller particle_spacing"
         return
-    for wall in scene.walls:
-        behind = int(np.count_nonzero(wall.is_behind(position)))
-        if behind:
+    for group in groups:
+        behind = group.behind(position)
+        if np.any(behind):
             yield (
-                f"{behind} of {len(position)} particles of fluid[{index}] lie behind wall {wall.name!r}; draw the fluid"
-                f" within the walls, and a polygonal wall so that the fluid is on its left"
+                f"{behind.sum()} of {len(position)} particles of fluid[{index}] lie behind a wall, the first at"
+                f" {tuple(position[behind][0].round(6).tolist())}; draw the fluid within the walls"
             )
     rim = max(float(line[:, -1].max()) for wall in scene.walls for line in wall.outline())
     top = float(position[:, -1].max())

@@ -11,8 +11,7 @@ from sphframe.geometry.frames import (
     turned,
     turning_velocities,
 )
-from sphframe.geometry.ghosts import GhostPoints, wall_ghosts
-from sphframe.geometry.panels import Panels, wall_panels
+from sphframe.geometry.ghosts import GhostPoints, Panels, PlaneWalls, WallGroup, ghosts_of, panels_of, wall_groups
 from sphframe.geometry.regions import (
     BoxRegion,
     CircleRegion,
@@ -70,6 +69,7 @@ __all__ = [
     "Mesh",
     "MeshRegion",
     "Panels",
+    "PlaneWalls",
     "PointsFile",
     "PointsRegion",
     "Polygon",
@@ -83,10 +83,13 @@ __all__ = [
     "Union",
     "UnionRegion",
     "Wall",
+    "WallGroup",
     "common_part",
     "directions_to_world",
     "fill",
+    "ghosts_of",
     "moments",
+    "panels_of",
     "rotation_matrix",
     "sampled",
     "solid_of",
@@ -95,6 +98,5 @@ __all__ = [
     "to_world",
     "turned",
     "turning_velocities",
-    "wall_ghosts",
-    "wall_panels",
+    "wall_groups",
 ]

@@ -1,66 +1,278 @@
-"""Geometry: the ghost particles and mirror points that walls need.
+"""Geometry: walls that one body carries: their ghost particles with mirror points, their panels, and what is behind.
 
-A ghost particle at x_G outside the fluid belongs to the nearest point c of its wall. Its mirror point is
+A ghost particle at x_G outside the fluid belongs to the nearest point c of a wall. Its mirror point is
 x_M = 2 c - x_G, inside the fluid, and its reflection matrix S turns the velocity of the fluid relative to the wall at
 the mirror point into that of the ghost for free slip: S = 1 - 2 n n^T next to a face; the product of the faces'
-reflections where c lies on an edge or corner, which for two faces of a plane is the point reflection S = -1.
+reflections where c lies on an edge or corner, which for two faces of a plane is the point reflection S = -1. Where the
+mirror point lies behind another wall or nearer to it than half a spacing, which happens in acute corners, it is moved
+to the nearest point half a spacing inside the fluid.
 
 Source: S. Marrone et al. (2011), doi:10.1016/j.cma.2010.12.016; X. Huang et al. (2019), doi:10.3390/w11051110,
 section 2.2.
 """
 
-import math
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple, final
 
 import numpy as np
-from scipy.spatial import cKDTree
+import shapely
 
 from sphframe.arrays import Array, BoolArray, IntArray
-from sphframe.geometry.walls import TOLERANCE, Wall
+from sphframe.geometry.domain import OPEN, fluid_domain
+from sphframe.geometry.layers import layer_points
+from sphframe.geometry.shapes import Shape, grid
+from sphframe.geometry.walls import BoxWall, Wall
+
+NONE = -1
+"""index of a wall or body that there is not"""
 
 
 @dataclass(frozen=True)
 class GhostPoints:
     """Fixed ghost particles, in m, as drawn (before any body moves).
 
-    ``position`` (g, dim), ``mirror`` (g, dim), ``reflection`` (g, dim, dim) for free slip, ``wall`` (g,) index of the
-    wall that each belongs to.
+    ``position`` (g, dim), ``mirror`` (g, dim), ``reflection`` (g, dim, dim) for free slip, ``volume`` (g,) in m^dim,
+    ``wall`` (g,) index of the wall that each belongs to. In a corner between two walls, ``other`` (g,) is the second
+    wall, else ``NONE``. Its part of the force F on the ghost is (F.d) n with its normal n, ``other_normal`` (g, dim),
+    and d, ``other_dual`` (g, dim), which is perpendicular to the normal of the first wall and has d.n = 1.
     """
 
     position: Array
     mirror: Array
     reflection: Array
+    volume: Array
+    wall: IntArray
+    other: IntArray
+    other_normal: Array
+    other_dual: Array
+
+
+@dataclass(frozen=True)
+class Panels:
+    """Panel ``centre`` (k, dim), m; ``area`` (k, dim), the area vector out of the fluid, m^(dim-1); ``wall`` (k,)."""
+
+    centre: Array
+    area: Array
     wall: IntArray
 
 
-def wall_ghosts(walls: tuple[Wall, ...], spacing: float, layers: int) -> GhostPoints:
-    """Place the ghosts of all ``walls``: layers at (k + 1/2) spacings behind each, corners filled.
+class End(NamedTuple):
+    """Open end of a wall: its point, the direction of the wall's prolongation, and the normal out of the fluid."""
 
-    A position is left out if another face of the same wall is nearer to it, if it is not behind its wall, or if an
-    earlier ghost is closer than half a spacing.
+    wall: int
+    point: Array
+    onward: Array
+    outward: Array
+
+
+class WallGroup(ABC):
+    """Walls that are carried by the same body, or are all at rest, and together bound the fluid."""
+
+    @abstractmethod
+    def ghosts(self, spacing: float, layers: int) -> GhostPoints:
+        """Return ghosts in layers at (k + 1/2) ``spacing`` (m) behind the walls."""
+
+    @abstractmethod
+    def panels(self, spacing: float) -> Panels:
+        """Cut the wetted surface of the walls into panels of about ``spacing`` (m)."""
+
+    @abstractmethod
+    def behind(self, points: Array) -> BoolArray:
+        """Return whether each of ``points`` (n, dim), m, lies behind one of the walls, and not on it."""
+
+
+@final
+class PlaneWalls(WallGroup):
+    """Walls of two dimensions: lines that bound a :class:`~sphframe.geometry.domain.Domain`.
+
+    Parameters
+    ----------
+    walls: by their indices; ``fluid`` at the start, m; ``spacing`` of the particles, m.
+
+    Raises
+    ------
+    InputError: when the side of the fluid is ambiguous.
     """
-    dimension = walls[0].dimension
-    positions, mirrors, reflections, owners = [], [], [], []
-    for index, wall in enumerate(walls):
-        position = wall.candidates(spacing, layers)
-        foot, reflection = wall.nearest(position)
-        depth = np.linalg.norm(position - foot, axis=1)
-        reach = math.sqrt(dimension) * layers * spacing
-        keep = wall.is_behind(position) & (depth > 0.2 * spacing) & (depth < reach)
-        positions.append(position[keep])
-        mirrors.append(2.0 * foot[keep] - position[keep])
-        reflections.append(reflection[keep])
-        owners.append(np.full(int(keep.sum()), index))
-    position = np.vstack(positions)
-    keep = _without_duplicates(position, 0.5 * spacing)
-    return GhostPoints(
-        position[keep], np.vstack(mirrors)[keep], np.vstack(reflections)[keep], np.concatenate(owners)[keep]
-    )
+
+    def __init__(self, walls: dict[int, Wall], fluid: shapely.Geometry, spacing: float) -> None:
+        self._indices = np.array([*walls, NONE])  # the last stands for OPEN
+        single = [k for k, wall in enumerate(walls.values()) if wall.one_sided]
+        outlines = {wall.name: wall.outline() for wall in walls.values()}
+        self.domain = fluid_domain(outlines, fluid, spacing, one_sided=single)
+
+    def ghosts(self, spacing: float, layers: int) -> GhostPoints:
+        """Return ghosts in layers at (k + 1/2) ``spacing`` (m) behind the walls."""
+        domain = self.domain
+        position, volume, foot, edge = layer_points(domain, spacing, layers)
+        offset = position - foot
+        depth = np.hypot(*offset.T)[:, None]
+        at_end = np.hypot(*(foot - domain.end[edge]).T) <= 1e-9 * (depth[:, 0] + spacing)
+        at_start = np.hypot(*(foot - domain.start[edge]).T) <= 1e-9 * (depth[:, 0] + spacing)
+        later = np.where(at_end, domain.after[edge], edge)  # the edge that starts in the corner, if there is one
+        corner = (at_end | at_start) & domain.sharp[later]
+        earlier = domain.before[later]
+        normal = offset / np.maximum(depth, 1e-300)
+        identity = np.eye(2)
+        reflection = np.where(
+            corner[:, None, None], -identity, identity - 2.0 * normal[:, :, None] * normal[:, None, :]
+        )
+        wall = np.where(corner, domain.wall[earlier], domain.wall[edge])
+        other = np.where(corner & (domain.wall[later] != wall), domain.wall[later], OPEN)
+        shared = (other != OPEN)[:, None]
+        first, second = domain.normal[earlier], domain.normal[later]
+        across = np.stack([-first[:, 1], first[:, 0]], axis=1)
+        dual = across / np.where(shared, np.einsum("ij,ij->i", across, second)[:, None], 1.0)
+        return GhostPoints(
+            position,
+            self._inside(2.0 * foot - position, spacing),
+            reflection,
+            volume,
+            self._indices[wall],
+            self._indices[other],
+            np.where(shared, second, 0.0),
+            np.where(shared, dual, 0.0),
+        )
+
+    def _inside(self, mirror: Array, spacing: float) -> Array:
+        """Move mirror points (g, 2) that lie behind a wall, or too near to one, half a spacing inside the fluid."""
+        within = shapely.buffer(self.domain.region, -0.5 * spacing, join_style="mitre")
+        if not within.is_empty:
+            points = shapely.points(mirror)
+            near = shapely.distance(within, points) > 0.01 * spacing
+            line = shapely.shortest_line(within, points[near])
+            mirror[near] = shapely.get_coordinates(shapely.get_point(line, 0))
+        return mirror
+
+    def panels(self, spacing: float) -> Panels:
+        """Cut the wetted surface of the walls into panels of at most ``spacing`` (m), at least one per edge."""
+        domain = self.domain
+        walled = domain.wall != OPEN
+        edge = (domain.end - domain.start)[walled]
+        count = np.maximum(np.ceil(np.hypot(*edge.T) / spacing - 1e-9).astype(int), 1)
+        place = np.repeat(np.arange(len(edge)), count)
+        share = (np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count) + 0.5) / count[place]
+        centre = domain.start[walled][place] + share[:, None] * edge[place]
+        area = np.stack([edge[:, 1], -edge[:, 0]], axis=1)[place] / count[place, None]
+        return Panels(centre, area, self._indices[domain.wall[walled][place]])
+
+    def ends(self) -> list[End]:
+        """Return the ends of walls from which the boundary of the domain continues in the open."""
+        domain = self.domain
+        wall, along = domain.wall, domain.end - domain.start
+        along /= np.hypot(*along.T)[:, None]
+        found = []
+        for k in np.flatnonzero(wall != OPEN):
+            index = int(self._indices[wall[k]])
+            if wall[domain.before[k]] == OPEN:
+                found.append(End(index, domain.start[k], -along[k], domain.normal[k]))
+            if wall[domain.after[k]] == OPEN:
+                found.append(End(index, domain.end[k], along[k], domain.normal[k]))
+        return found
+
+    def behind(self, points: Array) -> BoolArray:
+        """Return whether each of ``points`` (n, 2), m, lies behind one of the walls, and not on it."""
+        return self.domain.behind(points)
 
 
-def _without_duplicates(position: Array, closest: float) -> BoolArray:
-    keep = np.ones(len(position), dtype=np.bool_)
-    for i, j in sorted(cKDTree(position).query_pairs(closest * (1.0 - TOLERANCE))):
-        if keep[i]:
-            keep[j] = False
-    return keep
+@final
+class BoxWalls(WallGroup):
+    """The faces of one ``box`` of three dimensions, the wall ``index``; its ghosts are on a lattice.
+
+    Along each axis the box is divided into whole numbers of cells; the layers behind its faces are one spacing deep.
+    """
+
+    def __init__(self, index: int, box: BoxWall) -> None:
+        self._index = index
+        self._box_lower, self._box_upper = np.array(box.lower), np.array(box.upper)
+        self._open = [[sign + axis in box.open_faces for axis in "xyz"] for sign in "-+"]
+        self._lower = np.where(self._open[0], -np.inf, self._box_lower)
+        self._upper = np.where(self._open[1], np.inf, self._box_upper)
+
+    def ghosts(self, spacing: float, layers: int) -> GhostPoints:
+        """Return ghosts in layers at (k + 1/2) ``spacing`` (m) behind the faces, whose edges and corners are filled."""
+        depth = (np.arange(layers) + 0.5) * spacing
+        places, widths = [], []
+        for k in range(3):
+            low, high = self._box_lower[k], self._box_upper[k]
+            count = max(round((high - low) / spacing), 1)
+            within = low + (np.arange(count) + 0.5) * (high - low) / count
+            below = low - depth[::-1] if not self._open[0][k] else depth[:0]
+            above = high + depth if not self._open[1][k] else depth[:0]
+            places.append(np.concatenate([below, within, above]))
+            widths.append(np.repeat([spacing, (high - low) / count, spacing], [len(below), count, len(above)]))
+        position, volume = grid(places), np.prod(grid(widths), axis=1)
+        crossed = (position < self._lower) | (position > self._upper)
+        ghost = np.any(crossed, axis=1)
+        position, crossed = position[ghost], crossed[ghost]
+        reflection = np.where(crossed[:, :, None], -1.0, 1.0) * np.eye(3)
+        nothing = np.zeros_like(position)
+        return GhostPoints(
+            position,
+            2.0 * np.clip(position, self._lower, self._upper) - position,
+            reflection,
+            volume[ghost],
+            np.full(len(position), self._index),
+            np.full(len(position), NONE),
+            nothing,
+            nothing,
+        )
+
+    def panels(self, spacing: float) -> Panels:
+        """Cut the closed faces into rectangles of about ``spacing`` (m)."""
+        size = self._box_upper - self._box_lower
+        counts = np.maximum(np.rint(size / spacing).astype(int), 1)
+        steps = size / counts
+        axes = zip(self._box_lower, counts, steps, strict=True)
+        middles = [low + (np.arange(count) + 0.5) * step for low, count, step in axes]
+        centres, areas = [np.empty((0, 3))], [np.empty((0, 3))]
+        for side, bound in enumerate((self._box_lower, self._box_upper)):
+            for k in (axis for axis in range(3) if not self._open[side][axis]):
+                centre = grid([bound[k : k + 1] if axis == k else middles[axis] for axis in range(3)])
+                area = np.zeros_like(centre)
+                area[:, k] = np.prod(np.delete(steps, k)) * (2 * side - 1)
+                centres.append(centre)
+                areas.append(area)
+        centre = np.vstack(centres)
+        return Panels(centre, np.vstack(areas), np.full(len(centre), self._index))
+
+    def behind(self, points: Array) -> BoolArray:
+        """Return whether each of ``points`` (n, 3), m, lies behind a closed face, and not on it."""
+        on_wall = 1e-9 * float(np.max(self._box_upper - self._box_lower))
+        return np.asarray(np.any((points < self._lower - on_wall) | (points > self._upper + on_wall), axis=1))
+
+
+def wall_groups(walls: tuple[Wall, ...], fluid: Sequence[Shape], spacing: float) -> list[tuple[str | None, WallGroup]]:
+    """Return the groups of ``walls`` with the names of their bodies, None at rest.
+
+    Parameters
+    ----------
+    walls: all walls of a scene. Those of three dimensions are groups of their own.
+    fluid: regions of the fluid at the start; not used in 3-D.
+    spacing: of the particles, m.
+
+    Raises
+    ------
+    InputError: when the side of the fluid is ambiguous.
+    """
+    if walls[0].dimension == 3:
+        return [(wall.body, BoxWalls(k, wall)) for k, wall in enumerate(walls) if isinstance(wall, BoxWall)]
+    whole = shapely.union_all([region.geometry(1e-3 * spacing) for region in fluid])
+    bodies = dict.fromkeys(wall.body for wall in walls)
+    return [
+        (body, PlaneWalls({k: wall for k, wall in enumerate(walls) if wall.body == body}, whole, spacing))
+        for body in bodies
+    ]
+
+
+def ghosts_of(groups: Sequence[WallGroup], spacing: float, layers: int) -> GhostPoints:
+    """Return the ghosts of all ``groups``; see :meth:`WallGroup.ghosts`."""
+    parts = [group.ghosts(spacing, layers) for group in groups]
+    return GhostPoints(*(np.concatenate([vars(part)[name] for part in parts]) for name in vars(parts[0])))
+
+
+def panels_of(groups: Sequence[WallGroup], spacing: float) -> Panels:
+    """Return the panels of all ``groups``; see :meth:`WallGroup.panels`."""
+    parts = [group.panels(spacing) for group in groups]
+    return Panels(*(np.concatenate([vars(part)[name] for part in parts]) for name in vars(parts[0])))

@@ -4,8 +4,8 @@
 
     F = -sum_i V_i sum_(g in wall) [-(p_i + p_g) + alpha h c0 rho0 pi_ig] grad_i W_ig V_g,    i in fluid
 
-and its moment about the centre of the wall's body. In the corner between two walls the component of a ghost's force
-along the normal of the other wall acts on that wall (see :mod:`sphframe.boundary.corners`). Particles are summed in a
+and its moment about the centre of the wall's body. In the corner between two walls each bears its part of the
+force on a ghost (see :mod:`sphframe.boundary.corners`). Particles are summed in a
 fixed number of chunks, and the chunks in their order, so the result has the same bits on any number of threads.
 
 Departs from the paper: its Eq. 29 takes a pressure difference, which is zero on a hydrostatic wall.
@@ -36,12 +36,11 @@ def add_load(load, row, centre, fx, fy, fz):  # type: ignore[no-untyped-def]
 
 
 def wall_reaction(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, fluid_counts, ghost_counts, ghost_walls, other_walls, other_normals, centres, parameters,
-    partial, loads,
+    rows, fluid_count, lists, fluid_counts, ghost_counts, ghost_walls, shares, centres, parameters, partial, loads,
 ):  # fmt: skip
     """Write force and moment of each wall to ``loads``: (walls, 3) in 2-D, per metre; (walls, 6) in 3-D; N and N m.
 
-    ``other_walls`` (g,) and ``other_normals`` (g, dim): the walls that share corner ghosts, -1 for all other ghosts;
+    ``shares``: :class:`~sphframe.boundary.corners.Shares` of second walls in the forces on ghosts in corners;
     ``centres`` (walls, dim): the points to which moments refer, m; ``partial`` (chunks, walls, 3 or 6) is scratch.
     """
     limit = parameters.support * parameters.support
@@ -73,11 +72,11 @@ def wall_reaction(  # type: ignore[no-untyped-def]
                     fy = stress * dy
                     fz = stress * dz if DIM == 3 else 0.0
                     g = j - fluid_count
-                    other = other_walls[g]
+                    other = shares.wall[g]
                     if other >= 0:
-                        along = fx * other_normals[g, 0] + fy * other_normals[g, 1]
-                        ox = along * other_normals[g, 0]
-                        oy = along * other_normals[g, 1]
+                        along = fx * shares.dual[g, 0] + fy * shares.dual[g, 1]
+                        ox = along * shares.normal[g, 0]
+                        oy = along * shares.normal[g, 1]
                         fx -= ox
                         fy -= oy
                         add_load(partial[chunk, other], rows[i], centres[other], ox, oy, 0.0)

@@ -8,7 +8,7 @@ from sphframe.boundary.filling import Filling
 from sphframe.cases import Case, Scene
 from sphframe.compiled import LANES, specialise
 from sphframe.errors import InputError
-from sphframe.geometry import fill, wall_panels
+from sphframe.geometry import fill, panels_of
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
 from sphframe.physics import LoopParameters, invert_pressure
@@ -53,6 +53,7 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
         scene.walls,
         scene.bodies,
         components.interpolator.traits.evaluation_point,
+        fluid=scene.fluid,
         spacing=spacing,
         support=parameters.support,
         no_slip=case.slip == "no",
@@ -77,14 +78,15 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     if scene.initial_pressure is not None:
         pressure = scene.initial_pressure(position)
     else:
-        depth = still_levels(scene, [filled.position for filled in fills], spacing)[members] - position[:, -1]
+        levels = still_levels(scene, [filled.position for filled in fills], spacing, boundary.groups)
+        depth = levels[members] - position[:, -1]
         pressure = pressure_at_depth(
             depth, density, parameters.reference_density, parameters.sound_speed, parameters.gravity
         )
         for index, region in enumerate(scene.fluid):
             if region.pressure is not None:
                 pressure[members == index] = region.pressure
-    rows = _initial_rows(position, volumes, pressure, boundary.position, spacing, components, parameters)
+    rows = _initial_rows(position, volumes, pressure, boundary, components, parameters)
     for index, region in enumerate(scene.fluid):
         if region.velocity is not None:
             rows[: len(position)][members == index, Columns.of(dim).velocity] = region.velocity
@@ -100,7 +102,7 @@ def _contacts(
     scene: Scene, boundary: Boundary, position: Array, spacing: float, parameters: LoopParameters
 ) -> BodyContacts:
     """Return the contacts of the bodies, which are checked to be heavy enough for the fluid at ``position``."""
-    panels = wall_panels(scene.walls, spacing)
+    panels = panels_of(boundary.groups, spacing)
     if scene.bodies:
         check_weights(boundary, panels, position, spacing, parameters.reference_density)
     frequency = FREQUENCY * parameters.sound_speed / parameters.smoothing_length
@@ -111,24 +113,23 @@ def _initial_rows(
     position: Array,
     volumes: Array,
     pressure: Array,
-    ghosts: Array,
-    spacing: float,
+    boundary: Boundary,
     components: Components,
     parameters: LoopParameters,
 ) -> Array:
-    """Return the packed rows of fluid particles with their densities from ``pressure``, followed by the ghosts."""
-    columns, n = Columns.of(ghosts.shape[1]), len(position)
-    rho0, ghost_volume = parameters.reference_density, spacing**columns.dim
-    rows = columns.zeros(n + len(ghosts))
+    """Return the packed rows of fluid particles with densities from ``pressure``, and of all ghosts."""
+    columns, n = Columns.of(boundary.dim), len(position)
+    rho0 = parameters.reference_density
+    rows = columns.zeros(n + boundary.count)
     rows[:n, columns.position] = position
     rows[:n, columns.pressure] = pressure
     specialise(invert_pressure, components.parts, parallel=False)(rows, n, parameters)
     rows[:n, columns.volume] = volumes
     rows[:n, columns.mass] = rows[:n, columns.density] * volumes
     rows[n:, columns.density] = rho0
-    rows[n:, columns.volume] = ghost_volume
-    rows[n:, columns.mass] = rho0 * ghost_volume
-    rows[n:, columns.position] = ghosts
+    rows[n:, columns.volume] = boundary.volume
+    rows[n:, columns.mass] = rho0 * boundary.volume
+    rows[n:, columns.position] = boundary.position
     return rows
 
 

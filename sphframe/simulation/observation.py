@@ -10,7 +10,7 @@ from sphframe.arrays import Array, IntArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.cases import Case, Scene
 from sphframe.compiled import specialise
-from sphframe.geometry import to_body_frame, wall_panels
+from sphframe.geometry import panels_of, to_body_frame
 from sphframe.interfaces import Fields, Motion, Status, WallLoad
 from sphframe.physics import sample_points
 from sphframe.simulation.components import Components
@@ -43,7 +43,7 @@ class Observation:
         self._probes = PressureProbes(scene.probes, case.dimension, list(scene.bodies))
         self._gauges = Gauges(scene.gauges, self._lower, self._upper, 0.25 * case.particle_spacing, list(scene.bodies))
         self._solid = self._solid_share(self._probes.points)
-        panels = wall_panels(scene.walls, case.particle_spacing)
+        panels = panels_of(self.boundary.groups, case.particle_spacing)
         self._wall_loads = WallLoads(system, scene.walls, scene.wall_parts, panels, self.sample)
         self._sample: Callable[..., None] = specialise(sample_points, components.parts)
 
@@ -159,8 +159,8 @@ class Observation:
         """Return the number of particles behind a wall."""
         position = self.system.rows[: self.fluid_count, self.columns.position]
         outside = np.zeros(self.fluid_count, dtype=np.bool_)
-        for wall, body in zip(self.scene.walls, self.boundary.wall_body, strict=True):
-            outside |= wall.is_behind(self._in_frame(position, body) if body >= 0 else position)
+        for group, body in zip(self.boundary.groups, self.boundary.group_body, strict=True):
+            outside |= group.behind(self._in_frame(position, body) if body >= 0 else position)
         return int(outside.sum())
 
     def status_counts(self) -> IntArray:

@@ -9,13 +9,16 @@ import shapely
 
 from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.cases import Scene
+from sphframe.geometry import WallGroup
 
 _TOUCHING = 1.3
 """distance of particles over spacing up to which their regions touch"""
 
 
-def still_levels(scene: Scene, positions: Sequence[Array], spacing: float) -> Array:
+def still_levels(scene: Scene, positions: Sequence[Array], spacing: float, groups: Sequence[WallGroup]) -> Array:
     """Return the still water level (n,), m, of each region of fluid, whose particles are at ``positions``.
+
+    ``groups``: the walls of ``scene``.
 
     It is the ``level`` of the region. Regions without one share the highest point, or level, of all regions that are
     connected with them by touching regions; in 2-D, regions on both sides of a wall do not touch. Fluid that does not
@@ -31,7 +34,7 @@ def still_levels(scene: Scene, positions: Sequence[Array], spacing: float) -> Ar
     levels = given.copy()
     for c in np.unique(component):
         position = np.vstack([positions[k] for k in range(count) if component[k] == c])
-        stands = _stands(position[position[:, -1] < position[:, -1].min() + spacing], scene, walls, spacing)
+        stands = _stands(position[position[:, -1] < position[:, -1].min() + spacing], groups, walls, spacing)
         levels[np.isnan(given) & (component == c)] = own[component == c].max() if stands else -np.inf
     return levels
 
@@ -50,13 +53,13 @@ def _components(positions: Sequence[Array], walls: Any, spacing: float) -> IntAr
     return np.asarray(connected_components(touching, directed=False)[1])
 
 
-def _stands(lowest: Array, scene: Scene, walls: Any, spacing: float) -> bool:
+def _stands(lowest: Array, groups: Sequence[WallGroup], walls: Any, spacing: float) -> bool:
     """Whether a wall lies less than a spacing below most of the ``lowest`` particles (n, dim) of a body of fluid."""
     below = lowest.copy()
     below[:, -1] -= spacing
     on_wall = _crosses(lowest, below, walls)
-    for wall in scene.walls:
-        on_wall |= wall.is_behind(below)
+    for group in groups:
+        on_wall |= group.behind(below)
     return bool(on_wall.mean() > 0.5)
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.contact import put_back
+from sphframe.boundary.corners import Shares
 from sphframe.boundary.filling import Filling
 from sphframe.compiled import specialise
 from sphframe.interfaces import System
@@ -160,12 +161,10 @@ class FluidSystem(System):
         shares = self.boundary.corner_shares(self.bodies.motions)
         self._react(self.boundary.wall, shares, self.references(), self._partial_loads, self.loads)
 
-    def _react(
-        self, walls: IntArray, shares: tuple[IntArray, Array], centres: Array, partial: Array, loads: Array
-    ) -> None:
+    def _react(self, walls: IntArray, shares: Shares, centres: Array, partial: Array, loads: Array) -> None:
         lists = self.lists
         self._wall_reaction(
-            self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, walls, *shares, centres,
+            self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, walls, shares, centres,
             self.parameters, partial, loads,
         )  # fmt: skip
 
@@ -181,7 +180,8 @@ class FluidSystem(System):
     def reaction_of(self, ghosts: BoolArray, wall: int) -> Array:
         """Return force and moment (3 or 6,) of the fluid on some ``ghosts`` (g,) of a wall, without corner shares."""
         boundary = self.boundary
-        shares = np.full(boundary.count, -1), np.zeros_like(boundary.position)
+        nothing = np.zeros_like(boundary.position)
+        shares = Shares(np.full(boundary.count, -1), nothing, nothing)
         loads = np.zeros((2, self.bodies.size))  # the second is of all other ghosts
         self._react(
             np.where(ghosts, 0, 1), shares, self.references()[[wall, wall]], np.zeros((64, *loads.shape)), loads

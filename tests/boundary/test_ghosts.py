@@ -44,17 +44,19 @@ class Basin:
             lower=(0.0,) * dim, upper=(side,) * dim, open_faces=("+y" if dim == 2 else "+z",), body=body and "body"
         )
         interpolator = create("interpolators", method)
+        region = BoxRegion(lower=(0.0,) * dim, upper=(side,) * dim)
         self.boundary = Boundary(
             (wall,),
             {"body": body} if body else {},
             interpolator.traits.evaluation_point,
+            fluid=[region],
             spacing=SPACING,
             support=self.kernel.support * self.h,
             no_slip=slip == "no",
         )
         parts = loop_parts(self.kernel, Linear(), dim)
         self.filling = Filling(interpolator, self.kernel, parts, corrected=corrected, balanced=lift == "balanced")
-        position = fill(BoxRegion(lower=(0.0,) * dim, upper=(side,) * dim), SPACING).position.copy()
+        position = fill(region, SPACING).position.copy()
         position += np.random.default_rng(0).uniform(-jitter, jitter, position.shape) * SPACING
         self.n = len(position)
         c = self.columns = Columns.of(dim)

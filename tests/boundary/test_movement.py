@@ -5,9 +5,10 @@ import pytest
 
 from sphframe.bodies import Prescribed
 from sphframe.boundary.boundary import Boundary
-from sphframe.geometry import BoxWall, PolygonWall
+from sphframe.geometry import Box, BoxWall, Difference, Polygon, PolygonWall
 from sphframe.interfaces import EvaluationPoint
 
+OBSTACLE = ((0.0, 0.0), (0.0, 0.3), (0.4, 0.3), (0.5, 0.0))
 RATE, CENTRE = 3.0, np.array([0.2, -0.1, 0.3])
 AXIS = np.array([2.0, -1.0, 2.0]) / 3.0
 DRIFT, FALL = np.array([0.4, 0.1, -0.3]), np.array([0.0, 0.5, -9.81])
@@ -35,9 +36,12 @@ def turning(dim, time):
         wall = BoxWall(lower=(0.0, 0.0, 0.0), upper=(0.4, 0.3, 0.5), body="body")
         body = Prescribed(about_an_axis, centre=tuple(CENTRE))
     else:
-        wall = PolygonWall(points=((0.0, 0.0), (0.0, 0.3), (0.4, 0.3), (0.5, 0.0)), closed=True, body="body")
+        wall = PolygonWall(points=OBSTACLE, closed=True, body="body")
         body = Prescribed(in_the_plane, centre=tuple(CENTRE[:2]))
-    boundary = Boundary((wall,), {"body": body}, EvaluationPoint.MIRROR, spacing=0.1, support=0.3, no_slip=False)
+    sea = Difference(of=Box(lower=(-2, -2), upper=(3, 3)), minus=[Polygon(points=OBSTACLE)])
+    boundary = Boundary(
+        (wall,), {"body": body}, EvaluationPoint.MIRROR, fluid=[sea], spacing=0.1, support=0.3, no_slip=False
+    )
     drawn = boundary.position.copy(), boundary.mirror.copy(), boundary.reflection.copy()
     boundary.move([body.motion(time, *np.zeros((3, 3)))], np.zeros((boundary.count, 9)), np.zeros(dim), 1000.0)
     return boundary, drawn

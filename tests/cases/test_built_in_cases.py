@@ -9,7 +9,7 @@ from sphframe.cases import Case, Fields
 from sphframe.cases.dam_break import DamBreak, connected_extent
 from sphframe.cases.hydrostatic_tank import HydrostaticTank
 from sphframe.errors import InputError
-from sphframe.geometry import fill
+from sphframe.geometry import fill, wall_groups
 
 
 def still(position: np.ndarray) -> Fields:
@@ -27,7 +27,8 @@ def test_scene_is_consistent(case: type[Case], dimension: int) -> None:
         position = fill(region, made.particle_spacing).position
         assert position.shape[1] == dimension
         assert np.all((position > lower) & (position < upper))
-        assert not any(wall.is_behind(position).any() for wall in scene.walls)
+        groups = wall_groups(scene.walls, scene.fluid, made.particle_spacing)
+        assert not any(group.behind(position).any() for _, group in groups)
     for probe in scene.probes:
         assert len(probe.position) == dimension
 

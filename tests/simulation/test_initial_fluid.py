@@ -49,11 +49,12 @@ def test_touching_regions_share_the_highest_surface() -> None:
 def test_a_wall_between_two_regions_separates_their_surfaces() -> None:
     plate = {"shape": "polygon", "name": "plate", "points": ((0.5, 0), (0.5, 1)), "closed": False}
     regions = box((0, 0), (0.5, 0.2)), box((0.5, 0), (1, 0.4))
-    from sphframe.geometry import fill
+    from sphframe.geometry import fill, wall_groups
     from sphframe.simulation.rest_state import still_levels
 
     scene = Custom(particle_spacing=0.02, until=1.0, walls=(TANK, plate), fluid=regions).scene()
-    found = still_levels(scene, [fill(region, 0.02).position for region in scene.fluid], 0.02)
+    groups = [group for _, group in wall_groups(scene.walls[:1], scene.fluid, 0.02)]
+    found = still_levels(scene, [fill(region, 0.02).position for region in scene.fluid], 0.02, groups)
     np.testing.assert_allclose(found, [0.2, 0.4])
 
 

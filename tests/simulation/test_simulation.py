@@ -33,7 +33,7 @@ def test_rest_pressure_is_the_closed_form_of_the_linear_equation_of_state():
 
 @pytest.mark.parametrize("integrator", ["symplectic", "rk4"])
 def test_still_water_stays_still(integrator):
-    simulation = Simulation(tank(integrator=integrator))
+    simulation = Simulation(tank(integrator=integrator, particle_spacing=0.025))  # divides the tank
     advance_to(simulation, 0.2)
     fields = simulation.fields()
     assert np.abs(fields.velocity).max() < 0.02
@@ -137,7 +137,7 @@ def test_a_particle_behind_a_wall_is_put_back_on_it():
     rows[left, c.position.start], rows[left, c.velocity] = -0.004, (-1.0, 0.5)
     assert simulation.system.put_back(0.03) == 1
     np.testing.assert_allclose(rows[left, c.position.start], 0.0, atol=1e-15)
-    np.testing.assert_allclose(rows[left, c.velocity], [0.0, 0.5])
+    np.testing.assert_allclose(rows[left, c.velocity], [0.0, 0.5], atol=1e-12)
     assert simulation.system.put_back(0.03) == 0
 
 

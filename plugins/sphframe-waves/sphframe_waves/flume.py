@@ -88,7 +88,10 @@ class SolitaryWaveFlume(Case):
         margin = self.particle_spacing
         right = max(length, on_wall(height)[0]) + travel
         return Scene(
-            walls=(PolygonWall(name="paddle", points=((start, height), (start, 0.0)), body="paddle"), *walls),
+            walls=(
+                PolygonWall(name="paddle", points=((start, height), (start, 0.0)), body="paddle", one_sided=True),
+                *walls,
+            ),
             fluid=(PolygonRegion(points=((start, 0.0), (length, 0.0), on_wall(depth), (start, depth))),),
             depth=depth,
             domain=((-margin, -margin), (right + margin, 2.0 * height)),

@@ -71,7 +71,9 @@ class SolitaryWaveMovableWall(SolitaryWaveFlume):
             stiffness=self.spring_stiffness,
             threshold=self.threshold_ratio * 0.5 * self.reference_density * self.gravity * self.depth**2,
         )
-        seawall = PolygonWall(name="seawall", points=((length, 0.0), (length, self.tank_height)), body="seawall")
+        seawall = PolygonWall(
+            name="seawall", points=((length, 0.0), (length, self.tank_height)), body="seawall", one_sided=True
+        )
         travel = math.ceil(self.wall_travel / self.particle_spacing) * self.particle_spacing
         bed = PolygonWall(name="bed", points=((self.bed_start(), 0.0), (length + travel, 0.0)))
         return self.flume(90.0, (bed, seawall), {"seawall": wall}, travel=travel, seawall_body="seawall")

@@ -6,7 +6,7 @@ from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.filling import Filling
 from sphframe.boundary.operator import operator
-from sphframe.geometry import PolygonWall
+from sphframe.geometry import Box, PolygonWall
 from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint
 from sphframe.kernels import compiled_kernel
 from sphframe.neighbours import NeighbourLists
@@ -65,6 +65,7 @@ def _filled_pool(method: BoundaryInterpolator) -> tuple[Boundary, Array]:
         [PolygonWall(points=((0.0, 0.2), (0.0, 0.0), (0.3, 0.0)))],
         {},
         method.traits.evaluation_point,
+        fluid=[Box(lower=(0.0, 0.0), upper=(14 * _SPACING, 7 * _SPACING))],
         spacing=_SPACING,
         support=support,
         no_slip=False,

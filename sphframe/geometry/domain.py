@@ -1,0 +1,226 @@
+"""Geometry: the part of the plane that the fluid can reach, as bounded by walls.
+
+Walls are lines without direction. They cut the plane into faces. The fluid at the start tells which faces are wet; a
+face without fluid belongs to the domain too if the fluid can flow into it above the rim of a wall. Ends of walls that
+meet nothing are continued by open edges: along the wall, then upwards. Nothing bounds the fluid there.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+from shapely import LineString, Point, Polygon
+
+from sphframe.arrays import Array, BoolArray, IntArray
+from sphframe.errors import InputError
+
+OPEN = -1
+"""index of the wall of an edge where there is no wall"""
+SHARP = np.radians(30.0)
+"""smallest change of direction that makes a corner; smaller ones approximate a curve"""
+_SAME = 1e-6
+"""share of a particle spacing below which two points are the same"""
+
+
+@dataclass(frozen=True)
+class Domain:
+    """Polygons that the fluid can reach, in m, and the edges of their boundary, with the fluid on their left.
+
+    Attributes
+    ----------
+    region: the domain, with open edges continued far beyond the walls.
+    start, end: (m, 2) ends of the edges; ``wall`` (m,) index of their walls, ``OPEN`` where there is none.
+    before, after: (m,) edges that share the start and the end of each edge.
+    """
+
+    region: shapely.Geometry
+    start: Array
+    end: Array
+    wall: IntArray
+    before: IntArray
+    after: IntArray
+
+    @cached_property
+    def _tree(self) -> shapely.STRtree:
+        return shapely.STRtree(shapely.linestrings(np.stack([self.start, self.end], axis=1)))
+
+    @cached_property
+    def normal(self) -> Array:
+        """Unit normals (m, 2) of the edges, out of the fluid."""
+        edge = self.end - self.start
+        return np.asarray(np.stack([edge[:, 1], -edge[:, 0]], axis=1) / np.hypot(*edge.T)[:, None])
+
+    @cached_property
+    def turn(self) -> Array:
+        """Change of direction of the boundary at the start (m,) of each edge, rad; positive where the fluid narrows."""
+        return turning(self.normal[self.before], self.normal)
+
+    @cached_property
+    def sharp(self) -> BoolArray:
+        """Whether the boundary has a corner between two edges of walls at the start (m,) of each edge."""
+        return np.asarray((np.abs(self.turn) > SHARP) & (self.wall != OPEN) & (self.wall[self.before] != OPEN))
+
+    def feet(self, points: Array) -> tuple[Array, IntArray]:
+        """Return the nearest points (n, 2) of the boundary to ``points`` (n, 2), and their edges (n,)."""
+        order = self._tree.query_nearest(shapely.points(points), all_matches=False)
+        edge = np.empty(len(points), np.int64)
+        edge[order[0]] = order[1]
+        start, along = self.start[edge], (self.end - self.start)[edge]
+        share = np.einsum("ij,ij->i", points - start, along) / np.einsum("ij,ij->i", along, along)
+        return start + np.clip(share, 0.0, 1.0)[:, None] * along, edge
+
+    def contains(self, points: Array) -> BoolArray:
+        """Return whether each of ``points`` (n, 2) lies in the domain."""
+        shapely.prepare(self.region)
+        return np.asarray(shapely.contains_xy(self.region, points[:, 0], points[:, 1]))
+
+    def behind(self, points: Array) -> BoolArray:
+        """Return whether each of ``points`` (n, 2) lies behind a wall: outside, and a wall is the nearest edge."""
+        behind = ~self.contains(points)
+        out = np.flatnonzero(behind)
+        foot, edge = self.feet(points[out])
+        on_wall = np.hypot(*(points[out] - foot).T) <= 1e-9 * (1.0 + np.abs(points[out]).max(initial=0.0))
+        behind[out] = (self.wall[edge] != OPEN) & ~on_wall
+        return behind
+
+
+def turning(before: Array, after: Array) -> Array:
+    """Return the angles (m,) from directions ``before`` (m, 2) to ``after`` (m, 2), rad."""
+    cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    return np.asarray(np.arctan2(cross, np.einsum("ij,ij->i", before, after)))
+
+
+def fluid_domain(
+    walls: Mapping[str, Sequence[Array]], fluid: shapely.Geometry, spacing: float, *, one_sided: Iterable[int] = ()
+) -> Domain:
+    """Return the domain within ``walls`` that the ``fluid`` can reach.
+
+    Parameters
+    ----------
+    walls: for the name of each wall its polylines (k, 2), m; the ends of a closed one are equal.
+    fluid: region of the fluid at the start, m.
+    spacing: particle spacing, m. Ends that are closer than a millionth of it are joined.
+    one_sided: indices of walls that are wet on one side only, although the other side can be reached.
+
+    Raises
+    ------
+    InputError: when a wall crosses itself, or its fluid is on both sides.
+    """
+    lines = _joined([LineString(line) for wall in walls.values() for line in wall], _SAME * spacing)
+    owners = np.array([index for index, wall in enumerate(walls.values()) for _ in wall])
+    net = shapely.unary_union(lines)
+    lowest, highest = (
+        shapely.bounds(shapely.union(net, fluid))[[0, 1]],
+        shapely.bounds(shapely.union(net, fluid))[[2, 3]],
+    )
+    margin = 100.0 * spacing + 0.1 * float(np.max(highest - lowest))
+    frame = shapely.box(*(lowest - margin), *(highest + margin))
+    single = shapely.union_all([line for line, owner in zip(lines, owners, strict=True) if owner in set(one_sided)])
+    rims, bars = _open_edges(net, single, frame, 8.0 * spacing)
+    faces = shapely.get_parts(
+        shapely.polygonize(shapely.get_parts(shapely.unary_union([net, frame.boundary, *rims, *bars])))
+    )
+    core = shapely.buffer(fluid, -0.25 * spacing)  # a sliver on the other side of a wall does not count
+    wet = shapely.area(shapely.intersection(faces, core)) > 1e-6 * spacing**2
+    region = shapely.union_all(faces[_reached(faces, wet, shapely.union_all(rims), frame)])
+    both = shapely.difference(shapely.intersection(net, region), shapely.buffer(region.boundary, _SAME * spacing))
+    if shapely.length(both) > spacing:
+        through = shapely.intersection(both, core)
+        place = shapely.point_on_surface(both if through.is_empty else through)
+        wall = f"wall {list(walls)[owners[shapely.STRtree(lines).nearest(place)]]!r}"
+        at = f"at ({place.x:.6g}, {place.y:.6g})"
+        if not through.is_empty:
+            raise InputError(f"{wall} runs through the fluid {at}: draw the fluid within the walls")
+        raise InputError(
+            f"{wall} has fluid on both sides, or fluid that can flow to its other side, {at}: draw a closed wall around"
+            " what is solid, or set one_sided = true for a wall whose back stays dry"
+        )
+    return _with_edges(region, lines, owners, _SAME * spacing)
+
+
+def _joined(lines: list[LineString], closest: float) -> list[LineString]:
+    """Return ``lines`` whose ends lie exactly on the lines that they meet within ``closest``, m."""
+    for index, line in enumerate(lines):
+        ends = shapely.get_point(line, [0, -1])
+        for other in (k for k in range(len(lines)) if k != index):
+            near = ends[shapely.distance(ends, lines[other]) <= closest]
+            if len(near):
+                lines[other] = shapely.snap(lines[other], shapely.multipoints(near), closest)
+    return lines
+
+
+def _open_edges(
+    net: shapely.Geometry, single: shapely.Geometry, frame: Polygon, onward: float
+) -> tuple[list[LineString], list[LineString]]:
+    """Return open edges from the ends of walls that meet nothing: those that the fluid may cross, and those that not.
+
+    An edge continues its wall for the length ``onward`` and then goes upwards, or upwards at once where something is in
+    the way. It is left out where there is still something in the way. From a wall in ``single`` it goes straight on.
+    """
+    ends: dict[tuple[float, ...], list[Array]] = {}
+    for line in shapely.get_parts(net):
+        points = shapely.get_coordinates(line)
+        for here, inner in ((points[0], points[1]), (points[-1], points[-2])):
+            ends.setdefault(tuple(here), []).append(here - inner)
+    top, size = frame.bounds[3], frame.length
+    rims, bars = [], []
+    for point, directions in ends.items():
+        if len(directions) > 1:
+            continue
+        here = np.array(point)
+        along = directions[0] / np.hypot(*directions[0])
+        further = here + onward * along
+        upwards = [np.array([further[0], top]), np.array([here[0], top])]
+        if not single.is_empty and shapely.distance(Point(point), single) == 0.0:
+            bars.append(shapely.intersection(LineString([here, here + size * along]), frame))
+            continue
+        for path in ([here, further, upwards[0]], [here, upwards[1]]):
+            edge = LineString(path)
+            if edge.is_simple and shapely.intersection(edge, net).equals(Point(point)):
+                rims.append(edge)
+                break
+    return rims, bars
+
+
+def _reached(faces: Array, wet: BoolArray, rims: shapely.Geometry, frame: Polygon) -> BoolArray:
+    """Return which of the ``faces`` are ``wet`` or can be reached from such a face across the ``rims`` of walls.
+
+    A dry face at the bottom or at a side of the ``frame`` is outside: water does not flow over the rim of a tank.
+    """
+    left, bottom, right, top = frame.bounds
+    outer = LineString([(left, top), (left, bottom), (right, bottom), (right, top)])
+    edges = shapely.boundary(faces)
+    inside = wet | (shapely.length(shapely.intersection(edges, outer)) == 0.0)
+    across = shapely.intersection(edges, rims)
+    reached, frontier = wet.copy(), list(np.flatnonzero(wet))
+    while frontier:
+        shared = shapely.length(shapely.intersection(across, across[frontier.pop()])) > 0.0
+        new = np.flatnonzero(shared & inside & ~reached)
+        reached[new] = True
+        frontier.extend(new)
+    return reached
+
+
+def _with_edges(region: shapely.Geometry, lines: list[LineString], owners: IntArray, closest: float) -> Domain:
+    """Return the domain of a ``region``, whose edges on the ``lines`` are those of the walls ``owners``."""
+    starts, ends, before, after = [], [], [], []
+    count = 0
+    for polygon in shapely.get_parts(region):
+        for ring in shapely.get_rings(shapely.orient_polygons(polygon)):
+            points = shapely.get_coordinates(ring)
+            number = len(points) - 1
+            starts.append(points[:-1])
+            ends.append(points[1:])
+            places = count + np.arange(number)
+            before.append(np.roll(places, 1))
+            after.append(np.roll(places, -1))
+            count += number
+    start, end = np.vstack(starts), np.vstack(ends)
+    tree = shapely.STRtree(lines)
+    edge, line = tree.query_nearest(shapely.points(0.5 * (start + end)), max_distance=closest)
+    wall = np.full(count, len(owners))
+    np.minimum.at(wall, edge, owners[line])
+    wall[wall == len(owners)] = OPEN
+    return Domain(region, start, end, wall, np.concatenate(before), np.concatenate(after))
