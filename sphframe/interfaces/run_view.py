@@ -4,11 +4,9 @@ Every listener to the events of a run (:mod:`sphframe.hooks`) receives the simul
 only reads its members and never changes the run. Only the checkpoint writer needs :class:`ResumableRun`.
 """
 
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
 
-from numpy.typing import NDArray
-
-from sphframe.arrays import Array, BoolArray, IntArray
+from sphframe.arrays import Array, Arrays, BoolArray, IntArray
 from sphframe.interfaces.rigid_body import Motion
 
 if TYPE_CHECKING:  # the types alone: at run time the interfaces import no other room
@@ -144,5 +142,5 @@ class ResumableRun(RunView, Protocol):
     between_steps: bool
     """Whether no time step is under way: only then may the state be saved."""
 
-    def state(self) -> dict[str, NDArray[Any]]:
+    def state(self) -> Arrays:
         """Return copies of all that the rest of the run depends on, by name."""

@@ -16,11 +16,11 @@ import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import AnyArray, Arrays
 from sphframe.errors import InputError
 from sphframe.interfaces import ResumableRun
 from sphframe.output.files import replaced_as_a_whole
@@ -52,7 +52,7 @@ class Checkpoint:
     samples: int
     frames: int
     versions: Mapping[str, str]
-    state: Mapping[str, NDArray[Any]]
+    state: Arrays
 
 
 def checkpoint_path(output: Path) -> Path:
@@ -125,7 +125,7 @@ def read_checkpoint(path: Path) -> Checkpoint:
         raise InputError(damaged) from None  # RuntimeError: an encrypted member, or nested too deeply
 
 
-def _array(content: bytes, kind: str, shape: list[int]) -> NDArray[Any]:
+def _array(content: bytes, kind: str, shape: list[int]) -> AnyArray:
     if kind not in _TYPES.values():
         raise ValueError(kind)
     return np.frombuffer(content, dtype=kind).reshape(shape).copy()

@@ -1,12 +1,10 @@
 """Simulation: what can be read from a running simulation: fields, probes, forces, energies."""
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from sphframe.arrays import Array, IntArray
+from sphframe.arrays import AnyArray, Array, IntArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.cases import Case, Scene
 from sphframe.compiled import specialise
@@ -87,7 +85,7 @@ class Observation:
         """Return the mass of each particle in the original order, kg; NaN for removed particles."""
         return self.in_original_order(self.system.rows[: self.fluid_count, self.columns.mass])
 
-    def in_original_order(self, values: NDArray[Any]) -> Array:
+    def in_original_order(self, values: AnyArray) -> Array:
         """Return ``values`` (n, ...) of the fluid in the particles' original order; NaN for removed particles."""
         ordered = np.full((self.particle_count, *values.shape[1:]), np.nan)
         ordered[self.system.ids] = values

@@ -1,20 +1,15 @@
 """Simulation: checks that a saved state belongs to a simulation before it is restored."""
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
+from sphframe.arrays import Array, Arrays
 from sphframe.errors import InputError
-
-Arrays = Mapping[str, NDArray[Any]]
 
 _PER_FLUID_PARTICLE = ("ids", "rates", "gradient", "lists.fluid")
 
 
 def check_saved_state(
-    saved: Arrays, own: Arrays, particle_count: int, ghost_count: int, lower: NDArray[Any], upper: NDArray[Any]
+    saved: Arrays, own: Arrays, particle_count: int, ghost_count: int, lower: Array, upper: Array
 ) -> None:
     """Compare the arrays of a ``saved`` state with a simulation's ``own``, by name.
 

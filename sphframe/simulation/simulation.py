@@ -1,15 +1,14 @@
 """Simulation: a running simulation of a case: its steps, its run loop, and the state from which it continues."""
 
 import time as clock
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
 
 import numba
 import numpy as np
 import pluggy
-from numpy.typing import NDArray
 
+from sphframe.arrays import Arrays
 from sphframe.cases import Case
 from sphframe.cases.placement import placed_scene
 from sphframe.errors import InputError, SimulationError
@@ -158,7 +157,7 @@ class Simulation(Observation):
 
     # what restarts a run
 
-    def state(self) -> dict[str, NDArray[Any]]:
+    def state(self) -> Arrays:
         """Return copies of all that the run depends on from here on, by name.
 
         A run that is restored from it has the same bits as one that continues. It holds the positions from which the
@@ -171,7 +170,7 @@ class Simulation(Observation):
             **self.system.state(),
         }
 
-    def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
+    def restore(self, state: Arrays) -> None:
         """Continue from what :meth:`state` of a simulation of the same case returned.
 
         Raises

@@ -7,9 +7,8 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from sphframe.arrays import Array, BoolArray, IntArray
+from sphframe.arrays import Array, Arrays, BoolArray, IntArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.contact import put_back
 from sphframe.boundary.corners import Shares
@@ -255,7 +254,7 @@ class FluidSystem(System):
 
     # what restarts a run
 
-    def state(self) -> dict[str, NDArray[Any]]:
+    def state(self) -> Arrays:
         """Return copies of all that the next step depends on, by name."""
         parts = {"bodies": self.bodies.state(), "boundary": self.boundary.state(), "lists": self.lists.state()}
         return {
@@ -267,7 +266,7 @@ class FluidSystem(System):
             **{f"{part}.{name}": array for part, arrays in parts.items() for name, array in arrays.items()},
         }
 
-    def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
+    def restore(self, state: Arrays) -> None:
         """Continue from what :meth:`state` returned for the same case."""
         count = len(state["ids"])
         if count != self.fluid_count:
@@ -282,6 +281,6 @@ class FluidSystem(System):
         self._pressure_is_current = False
 
 
-def _part(state: Mapping[str, NDArray[Any]], part: str) -> dict[str, NDArray[Any]]:
+def _part(state: Arrays, part: str) -> Arrays:
     """Return the arrays of a part of the system, by their names within it."""
     return {name.removeprefix(f"{part}."): array for name, array in state.items() if name.startswith(f"{part}.")}
