@@ -50,9 +50,7 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array) -> 
     guards, columns = case.guards, system.columns
     rows, n = system.rows, system.fluid_count
     lowest, highest = (factor * case.reference_density for factor in guards.density_band)
-    broken, outside, first_outside, out_of_range, first_out_of_range = _check_fluid(
-        rows, n, columns, lower, upper, lowest, highest
-    )
+    broken, outside, out_of_range, densities_outside = _check_fluid(rows, n, columns, lower, upper, lowest, highest)
 
     def stop(index: int, what: str, causes: str) -> NoReturn:
         row = rows[index]
@@ -66,16 +64,16 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array) -> 
     if broken < n:
         stop(broken, "has a state that is not finite", f"{_STEP_IS_TOO_LONG}, or a component that returned NaN")
     _check_ghosts(system, case)
-    if outside and guards.domain == "stop":
+    if outside < n and guards.domain == "stop":
         stop(
-            first_outside,
+            outside,
             "has left the domain",
             f"{_STEP_IS_TOO_LONG}, walls that leak or end too low, or a sound speed too low for the flow; to remove and"
             ' count such particles instead, set guards.domain = "remove"',
         )
-    if out_of_range and guards.density == "stop":
+    if out_of_range < n and guards.density == "stop":
         stop(
-            first_out_of_range,
+            out_of_range,
             f"has a density outside the band {lowest:g} to {highest:g} kg/m^3",
             f"{_STEP_IS_TOO_LONG}, a sound speed too low for the flow, or overlapping walls; to go on and count such"
             ' particles, set guards.density = "count", or widen guards.density_band',
@@ -85,8 +83,8 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array) -> 
     if system.boundary.bodies:
         check_bodies(system, lower, upper, case.particle_spacing)
     position = rows[:n, columns.position]
-    gone = np.any((position < lower) | (position > upper), axis=1) if outside else None
-    return Tolerated(gone, out_of_range)
+    gone = np.any((position < lower) | (position > upper), axis=1) if outside < n else None
+    return Tolerated(gone, densities_outside)
 
 
 def check_bodies(system: FluidSystem, lower: Array, upper: Array, spacing: float) -> None:
@@ -206,13 +204,10 @@ def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator, kernel
 
 @numba.njit(parallel=True, cache=True)
 def _check_fluid(rows, n, columns, lower, upper, lowest, highest):  # type: ignore[no-untyped-def]
-    """Return the first of ``n`` rows that is not finite; number and first of those outside the box; number and first
-    of those with a density outside ``lowest`` .. ``highest``. A first one that does not exist is n."""
-    broken = n
-    outside = 0
-    first_outside = n
-    out_of_range = 0
-    first_out_of_range = n
+    """Return the first of ``n`` rows that is not finite, the first one outside the box, and the first one with a
+    density outside ``lowest`` .. ``highest`` and the number of those. A first one that does not exist is n."""
+    broken = outside = out_of_range = n
+    densities_outside = 0
     for i in numba.prange(n):
         inside = True
         density = rows[i, columns.density]
@@ -223,12 +218,11 @@ def _check_fluid(rows, n, columns, lower, upper, lowest, highest):  # type: igno
         if not math.isfinite(total):
             broken = min(broken, i)
         elif not inside:
-            outside += 1
-            first_outside = min(first_outside, i)
+            outside = min(outside, i)
         elif density < lowest or density > highest:
-            out_of_range += 1
-            first_out_of_range = min(first_out_of_range, i)
-    return broken, outside, first_outside, out_of_range, first_out_of_range
+            out_of_range = min(out_of_range, i)
+            densities_outside += 1
+    return broken, outside, out_of_range, densities_outside
 
 
 @numba.njit(cache=True)

@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from sphframe.cases import Case, load_case
 from sphframe.errors import InputError, ResumeWarning
@@ -89,17 +89,13 @@ def run(
     return Run(ready, path, open_dataset(path))
 
 
-class Prepared(NamedTuple):
-    """A run ready to be continued."""
-
-    simulation: Simulation
-    writer: NetCDFWriter
-
-
 def prepare_resume(
     path: str | os.PathLike[str], *, case: Case | None = None, trusted: bool = False, threads: int | None = None
-) -> Prepared:
-    """Read a checkpoint and set its run up, without running; parameters and errors are those of :func:`resume`."""
+) -> tuple[Simulation, NetCDFWriter]:
+    """Read a checkpoint and set its run up, without running; parameters and errors are those of :func:`resume`.
+
+    Returns the simulation and the writer of its output, ready to be continued.
+    """
     output = Path(path)
     if output.name == checkpoint_path(Path(output.stem)).name:
         output = output.with_suffix("")
@@ -121,7 +117,7 @@ def prepare_resume(
         )
     simulation = Simulation(ready, threads=threads)
     simulation.restore(checkpoint.state)
-    return Prepared(simulation, NetCDFWriter(output, resumed=checkpoint))
+    return simulation, NetCDFWriter(output, resumed=checkpoint)
 
 
 def resume(
@@ -157,8 +153,7 @@ def resume(
     OutputError: when output and checkpoint do not belong together, or another run is writing the output.
     SimulationError, KeyboardInterrupt: as for :func:`run`.
     """
-    prepared = prepare_resume(path, case=case, trusted=trusted, threads=threads)
-    checkpoints = CheckpointWriter(prepared.writer, every=checkpoint_every, interval=checkpoint_interval)
-    simulation = prepared.simulation
-    simulation.run(hook_manager([prepared.writer, checkpoints, *hooks]))
-    return Run(simulation.case, prepared.writer.path, open_dataset(prepared.writer.path))
+    simulation, writer = prepare_resume(path, case=case, trusted=trusted, threads=threads)
+    checkpoints = CheckpointWriter(writer, every=checkpoint_every, interval=checkpoint_interval)
+    simulation.run(hook_manager([writer, checkpoints, *hooks]))
+    return Run(simulation.case, writer.path, open_dataset(writer.path))

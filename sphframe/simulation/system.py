@@ -20,14 +20,10 @@ from sphframe.particles import Columns
 from sphframe.physics import LoopParameters, fluid_sums, update_pressure, wall_reaction
 from sphframe.simulation.body_contact import BodyContacts
 from sphframe.simulation.body_states import BodyStates
-from sphframe.simulation.updates import (
-    accumulate_rates,
-    advance_density,
-    advance_position,
-    advance_state,
-    advance_velocity,
-    copy_state,
-)
+from sphframe.simulation.updates import add_columns, advance_state, copy_state
+
+_SAVED = ("rows", "rates", "gradient", "loads")
+"""the system's own arrays on which the next step depends; ``ids`` come first, as their number may differ"""
 
 
 class FluidSystem(System):
@@ -129,7 +125,12 @@ class FluidSystem(System):
         self.update_pressure()
         self.fill_ghosts()
         self._sum(self._accelerations)
-        self._update_body_rates(time)
+        if self.bodies.need_loads:
+            self.update_loads()
+        if len(self.bodies):
+            loads = self._body_loads()
+            self.contacts.add_loads(self.bodies.motions, loads)
+            self.bodies.update_rates(time, loads)
 
     def move_walls(self, time: float) -> None:
         """Carry the ghosts to where the bodies are; a body under load keeps its last acceleration."""
@@ -188,15 +189,6 @@ class FluidSystem(System):
         own: Array = loads[0]
         return own
 
-    def _update_body_rates(self, time: float) -> None:
-        if not len(self.bodies):
-            return
-        if self.bodies.need_loads:
-            self.update_loads()
-        loads = self._body_loads()
-        self.contacts.add_loads(self.bodies.motions, loads)
-        self.bodies.update_rates(time, loads)
-
     def _body_loads(self) -> Array:
         """Force and moment (bodies, 3 or 6) of the fluid on each body, as last computed."""
         wall_body, count = self.boundary.wall_body, len(self.bodies)
@@ -228,7 +220,7 @@ class FluidSystem(System):
 
     def accumulate(self, weight: float) -> None:
         """total = total + weight * f."""
-        accumulate_rates(self._total, self.rates, weight)
+        add_columns(self._total, self.rates, self.fluid_count, 0, self._total.shape[1], 0, weight)
         self.bodies.accumulate(weight)
 
     def advance_total(self, interval: float) -> None:
@@ -239,17 +231,20 @@ class FluidSystem(System):
 
     def drift(self, interval: float) -> None:
         """x = x + interval * u."""
-        advance_position(self.rows, self.fluid_count, self.columns, interval)
+        columns = self.columns
+        add_columns(self.rows, self.rows, self.fluid_count, 0, columns.dim, columns.u, interval)
         self.bodies.drift(interval)
 
     def kick(self, interval: float) -> None:
         """u = u + interval * acceleration."""
-        advance_velocity(self.rows, self.rates, self.columns, interval)
+        columns = self.columns
+        add_columns(self.rows, self.rates, self.fluid_count, columns.u, columns.density, 0, interval)
         self.bodies.kick(interval)
 
     def update_density(self, interval: float) -> None:
         """rho = rho + interval * density rate."""
-        advance_density(self.rows, self.rates, self.columns, interval)
+        density = self.columns.density
+        add_columns(self.rows, self.rates, self.fluid_count, density, density + 1, 0, interval)
         self._pressure_is_current = False
 
     # what restarts a run
@@ -259,10 +254,7 @@ class FluidSystem(System):
         parts = {"bodies": self.bodies.state(), "boundary": self.boundary.state(), "lists": self.lists.state()}
         return {
             "ids": self.ids.copy(),
-            "rows": self.rows.copy(),
-            "rates": self.rates.copy(),
-            "gradient": self.gradient.copy(),
-            "loads": self.loads.copy(),
+            **{name: getattr(self, name).copy() for name in _SAVED},
             **{f"{part}.{name}": array for part, arrays in parts.items() for name, array in arrays.items()},
         }
 
@@ -275,9 +267,8 @@ class FluidSystem(System):
         self.lists.restore(_part(state, "lists"), self.rows)
         self.bodies.restore(_part(state, "bodies"))
         self.boundary.restore(_part(state, "boundary"))
-        for array, name in ((self.rows, "rows"), (self.rates, "rates"), (self.gradient, "gradient")):
-            array[:] = state[name]
-        self.loads[:] = state["loads"]
+        for name in _SAVED:
+            getattr(self, name)[:] = state[name]
         self._pressure_is_current = False
 
 

@@ -1,4 +1,4 @@
-"""Simulation: compiled updates of the packed rows: y = y0 + dt f, and its parts for position, velocity and density."""
+"""Simulation: compiled updates of the packed rows: y = y0 + dt f for all columns, y = y + dt f for some."""
 
 import numba
 
@@ -20,31 +20,11 @@ def advance_state(rows, start, rates, interval):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(parallel=True, cache=True)
-def accumulate_rates(total, rates, weight):  # type: ignore[no-untyped-def]
-    """Add ``weight`` times ``rates`` to ``total`` (n, 2 dim + 1)."""
-    for i in numba.prange(total.shape[0]):
-        for k in range(total.shape[1]):
-            total[i, k] += weight * rates[i, k]
+def add_columns(rows, rates, count, first, end, shift, factor):  # type: ignore[no-untyped-def]
+    """Add ``factor`` times the columns from ``first + shift`` on of ``rates`` to ``first`` .. ``end`` of ``rows``.
 
-
-@numba.njit(parallel=True, cache=True)
-def advance_position(rows, count, columns, interval):  # type: ignore[no-untyped-def]
-    """Add dt u to the positions of the first ``count`` rows, whose ``columns`` are given."""
+    Only the first ``count`` rows are changed. With the columns of a quantity and of its rate: y = y + dt f.
+    """
     for i in numba.prange(count):
-        for k in range(columns.dim):
-            rows[i, k] += interval * rows[i, columns.u + k]
-
-
-@numba.njit(parallel=True, cache=True)
-def advance_velocity(rows, rates, columns, interval):  # type: ignore[no-untyped-def]
-    """Add dt a, from the accelerations in ``rates`` (n, 2 dim + 1), to the velocities."""
-    for i in numba.prange(rates.shape[0]):
-        for k in range(columns.u, columns.density):
-            rows[i, k] += interval * rates[i, k]
-
-
-@numba.njit(parallel=True, cache=True)
-def advance_density(rows, rates, columns, interval):  # type: ignore[no-untyped-def]
-    """Add dt times the density rate in ``rates`` (n, 2 dim + 1) to the densities."""
-    for i in numba.prange(rates.shape[0]):
-        rows[i, columns.density] += interval * rates[i, columns.density]
+        for k in range(first, end):
+            rows[i, k] += factor * rates[i, k + shift]
