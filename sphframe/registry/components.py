@@ -8,7 +8,7 @@ from typing import Any
 
 from sphframe.errors import ApiVersionError, BrokenPluginError, PluginError
 from sphframe.registry.entries import Entry, available, find, is_address, remember
-from sphframe.registry.kinds import API_VERSION, OLDEST_API_VERSION
+from sphframe.registry.kinds import API_VERSION, INTERFACES, OLDEST_API_VERSION
 
 
 def load(kind: str, name: str) -> Any:
@@ -80,37 +80,9 @@ def _loaded(entry: Entry) -> Any:
         _check_api_version(entry, module_name, error)
         raise BrokenPluginError(f"{entry.label} is broken: {_short(error)}; {_remedy(entry, error)}") from error
     _check_api_version(entry, module_name, None)
-    interface = _interface(entry.kind)
-    if interface is not None:
-        _check_interface(entry, component, interface)
+    if entry.kind in INTERFACES:
+        _check_interface(entry, component, INTERFACES[entry.kind])
     return component
-
-
-def _interface(kind: str) -> type | None:
-    """Return the class that components of ``kind`` extend; None for hooks, which may be any object.
-
-    The imports are here because a list of names needs none of them. Those of ``Case`` and ``Study`` go against the
-    order of the rooms; pyproject.toml lists them as exceptions.
-    """
-    if kind == "hooks":
-        return None
-    if kind == "cases":
-        from sphframe.cases.case import Case
-
-        return Case
-    if kind == "studies":
-        from sphframe.studies.study import Study
-
-        return Study
-    from sphframe import interfaces
-
-    return {
-        "interpolators": interfaces.BoundaryInterpolator,
-        "kernels": interfaces.Kernel,
-        "equations_of_state": interfaces.EquationOfState,
-        "integrators": interfaces.Integrator,
-        "rigid_bodies": interfaces.RigidBody,
-    }[kind]
 
 
 def _check_api_version(entry: Entry, module_name: str, cause: BaseException | None) -> None:
@@ -126,30 +98,37 @@ def _check_api_version(entry: Entry, module_name: str, cause: BaseException | No
         ) from cause
     if OLDEST_API_VERSION <= version <= API_VERSION:
         return
-    written_for = f"{entry.label} was written for version {version[0]}.{version[1]} of sphframe's plugin interface"
     if version > API_VERSION:
-        raise ApiVersionError(
-            f"{written_for}, and this sphframe offers {API_VERSION[0]}.{API_VERSION[1]}: upgrade sphframe"
-            f" (python -m pip install --upgrade sphframe)"
-        ) from cause
-    upgrade = f" (python -m pip install --upgrade {entry.distribution})" if entry.distribution else ""
+        offer, older, distribution = f"offers {_dotted(API_VERSION)}", "sphframe", "sphframe"
+    else:
+        offer, older = f"supports {_dotted(OLDEST_API_VERSION)} and later", "the plugin"
+        distribution = entry.distribution
+    install = f" (python -m pip install --upgrade {distribution})" if distribution else ""
     raise ApiVersionError(
-        f"{written_for}, and this sphframe supports {OLDEST_API_VERSION[0]}.{OLDEST_API_VERSION[1]} and later:"
-        f" upgrade the plugin{upgrade}"
+        f"{entry.label} was written for version {_dotted(version)} of sphframe's plugin interface, and this sphframe"
+        f" {offer}: upgrade {older}{install}"
     ) from cause
 
 
-def _check_interface(entry: Entry, component: Any, interface: type) -> None:
-    name = f"studies.{interface.__name__}" if entry.kind == "studies" else interface.__name__
-    if not (inspect.isclass(component) and issubclass(component, interface)):
+def _dotted(version: tuple[int, int]) -> str:
+    return f"{version[0]}.{version[1]}"
+
+
+def _check_interface(entry: Entry, component: Any, interface: str) -> None:
+    """Check that a component is a concrete subclass of the class with the public name ``interface``.
+
+    It is looked up by name: a list of names needs no interface, and ``Case`` and ``Study`` are above the registry.
+    """
+    home, _, name = interface.rpartition(".")
+    if not (inspect.isclass(component) and issubclass(component, getattr(import_module(home), name))):
         raise BrokenPluginError(
-            f"{entry.label} is broken: {entry.value} is not a subclass of sphframe.{name} but"
-            f" {component!r:.80}; {_remedy(entry)}"
+            f"{entry.label} is broken: {entry.value} is not a subclass of {interface} but {component!r:.80};"
+            f" {_remedy(entry)}"
         )
     missing = sorted(getattr(component, "__abstractmethods__", ()))
     if missing:
         raise BrokenPluginError(
-            f"{entry.label} is broken: {entry.value} does not define {', '.join(missing)} of sphframe.{name};"
+            f"{entry.label} is broken: {entry.value} does not define {', '.join(missing)} of {interface};"
             f" {_remedy(entry)}"
         )
 

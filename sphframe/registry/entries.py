@@ -162,7 +162,8 @@ def _entries_of(distribution: metadata.Distribution) -> Iterator[Entry]:
         )
         return
     for point in points:
-        yield Entry(point.name, _GROUPS[point.group], point.value, _name(distribution), _version(distribution))
+        version = distribution.metadata["Version"] or ""
+        yield Entry(point.name, _GROUPS[point.group], point.value, _name(distribution), version)
 
 
 _GROUPS = {f"sphframe.{kind}": kind for kind in KINDS}
@@ -170,10 +171,6 @@ _GROUPS = {f"sphframe.{kind}": kind for kind in KINDS}
 
 def _name(distribution: metadata.Distribution) -> str:
     return distribution.metadata["Name"] or "a distribution without a name"
-
-
-def _version(distribution: metadata.Distribution) -> str:
-    return distribution.metadata["Version"] or ""
 
 
 def _check_kind(kind: str) -> None:

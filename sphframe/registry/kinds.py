@@ -16,6 +16,16 @@ LABELS = {
     "hooks": "hook",
 }
 """the kinds of components, each with its name in the singular for messages"""
+INTERFACES = {
+    "interpolators": "sphframe.BoundaryInterpolator",
+    "kernels": "sphframe.Kernel",
+    "equations_of_state": "sphframe.EquationOfState",
+    "integrators": "sphframe.Integrator",
+    "rigid_bodies": "sphframe.RigidBody",
+    "cases": "sphframe.Case",
+    "studies": "sphframe.studies.Study",
+}
+"""the public name of the class that components of a kind extend; hooks may be any object"""
 KINDS = tuple(LABELS)
 """the kinds of components; kind K is entry-point group ``sphframe.K``"""
 COMPONENT_KINDS = {
