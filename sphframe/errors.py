@@ -28,25 +28,20 @@ class SimulationError(SphframeError):
     Parameters
     ----------
     message: what happened and its likely causes.
-    time: simulated time, in s.
-    step: number of the step.
     place: position (dim,), in m, if the error belongs to one.
+
+    Attributes
+    ----------
+    time: simulated time, in s; ``step``: number of the step; the running simulation sets both.
     """
 
     exit_code = 3
 
-    def __init__(
-        self,
-        message: str,
-        *,
-        time: float | None = None,
-        step: int | None = None,
-        place: tuple[float, ...] | None = None,
-    ) -> None:
+    def __init__(self, message: str, *, place: tuple[float, ...] | None = None) -> None:
         super().__init__(message)
-        self.time = time
-        self.step = step
         self.place = place
+        self.time: float | None = None
+        self.step: int | None = None
 
     def __str__(self) -> str:
         where = [

@@ -166,7 +166,9 @@ def test_a_failed_run_exits_with_three(tmp_path: Path, monkeypatch: pytest.Monke
     from sphframe.simulation import Simulation
 
     def fail(self: Simulation) -> None:
-        raise SimulationError("the time step has collapsed", time=self.time, step=self.step)
+        error = SimulationError("the time step has collapsed")
+        error.time, error.step = self.time, self.step
+        raise error
 
     monkeypatch.setattr(Simulation, "advance", fail)
     result = call("run", "hydrostatic-tank", *SMALL, "--output", str(tmp_path / "run.nc"))
