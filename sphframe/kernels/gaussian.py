@@ -42,9 +42,9 @@ class RenormalisedGaussian(Kernel):
 
     Examples
     --------
-    >>> from sphframe.kernels import kernel_value
-    >>> kernel_value(RenormalisedGaussian(), [0.0, 3.0], smoothing_length=1.0, dim=2).round(5)
-    array([0.31866, 0.     ])
+    >>> kernel = RenormalisedGaussian()
+    >>> [round(kernel.normalisation(2) * kernel.value_function()(q), 5) for q in (0.0, 3.0)]
+    [0.31866, 0.0]
     """
 
     support: ClassVar[float] = 3.0

@@ -1,12 +1,15 @@
-"""Testing: kernels, one check function per property."""
+"""Testing: kernels, one check function per property; their values on NumPy arrays."""
 
 import math
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from sphframe.arrays import Array
 from sphframe.compiled import compile_part
 from sphframe.interfaces import Kernel
+from sphframe.interfaces.kernel import ScalarFunction
 from sphframe.testing.evaluation import title
 from sphframe.testing.proof import require
 
@@ -113,3 +116,46 @@ CHECKS: dict[str, Callable[[Kernel], None]] = {
     "compiles": check_compiles,
 }
 """the checks of a kernel, by the name of the property"""
+
+
+def kernel_value(kernel: Kernel, distance: ArrayLike, smoothing_length: float, dim: int) -> Array:
+    """Return W(r, h) = sigma_d / h^d w(r/h), zero from the cut-off on.
+
+    Parameters
+    ----------
+    kernel: any kernel.
+    distance: r >= 0, in m; any shape.
+    smoothing_length: h, in m.
+    dim: 1, 2 or 3.
+
+    Returns
+    -------
+    W, in m^-dim, with the shape of ``distance``.
+
+    Examples
+    --------
+    >>> from sphframe.kernels.wendland import WendlandC2
+    >>> kernel_value(WendlandC2(), [0.0, 1.0, 2.0], smoothing_length=1.0, dim=2).round(4)
+    array([0.557 , 0.1044, 0.    ])
+    """
+    scale = kernel.normalisation(dim) / smoothing_length**dim
+    return _within_support(kernel.value_function(), kernel.support, distance, smoothing_length, scale)
+
+
+def kernel_gradient_factor(kernel: Kernel, distance: ArrayLike, smoothing_length: float, dim: int) -> Array:
+    """Return F(r, h) = sigma_d / h^(d+2) w'(q)/q, such that grad W(x) = F(|x|, h) x.
+
+    Parameters, shapes and an example as for :func:`kernel_value`; the unit is m^-(dim+2). F is finite at r = 0.
+    """
+    scale = kernel.normalisation(dim) / smoothing_length ** (dim + 2)
+    return _within_support(kernel.gradient_function(), kernel.support, distance, smoothing_length, scale)
+
+
+def _within_support(
+    function: ScalarFunction, support: float, distance: ArrayLike, smoothing_length: float, scale: float
+) -> Array:
+    q = np.asarray(distance, dtype=np.float64) / smoothing_length
+    inside = q < support
+    values = np.zeros_like(q)
+    values[inside] = [scale * function(float(q_j)) for q_j in q[inside]]
+    return values

@@ -6,8 +6,8 @@ from scipy.sparse import csr_array
 
 from sphframe import DRY, OK, SINGULAR, TOO_FEW, InputError, ParticleCloud, create
 from sphframe.boundary.operator import operator
-from sphframe.kernels import kernel_value
 from sphframe.kernels.gaussian import RenormalisedGaussian
+from sphframe.testing.kernels import kernel_value
 
 H = 0.013
 SUPPORT = 3 * H

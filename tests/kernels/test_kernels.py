@@ -10,10 +10,10 @@ from scipy.integrate import quad
 
 from sphframe.compiled import compile_part
 from sphframe.interfaces import Kernel
-from sphframe.kernels import kernel_gradient_factor, kernel_value
 from sphframe.kernels.gaussian import RenormalisedGaussian
 from sphframe.kernels.spline import CubicSpline, QuinticSpline
 from sphframe.kernels.wendland import WendlandC2, WendlandC4
+from sphframe.testing.kernels import kernel_gradient_factor, kernel_value
 
 KERNELS = [RenormalisedGaussian(), WendlandC2(), WendlandC4(), CubicSpline(), QuinticSpline()]
 every_kernel = pytest.mark.parametrize("kernel", KERNELS, ids=lambda kernel: type(kernel).__name__)

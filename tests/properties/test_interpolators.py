@@ -6,10 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sphframe import OK, SINGULAR, TOO_FEW, create
-from sphframe.kernels import kernel_value
 from sphframe.kernels.gaussian import RenormalisedGaussian
 from sphframe.testing import Cloud, clouds, evaluate
 from sphframe.testing.evaluation import evaluator
+from sphframe.testing.kernels import kernel_value
 from sphframe.testing.neighbourhoods import REGULAR, condition
 
 FAST = settings(deadline=None, max_examples=60)
