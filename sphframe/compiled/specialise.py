@@ -50,7 +50,7 @@ def specialise(
 
 def compile_part(function: F) -> F:
     """Compile one part for use inside loops; a function with the same fingerprint is compiled once per process."""
-    if isinstance(function, Dispatcher) or _jit_is_disabled():
+    if isinstance(function, Dispatcher) or numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
         return function
     return cast(F, _compiled_once(function, {"error_model": "numpy"}))
 
@@ -88,10 +88,6 @@ def fingerprint(function: Any) -> str:
     return digest.hexdigest()[:20]
 
 
-def _jit_is_disabled() -> bool:
-    return bool(numba.config.DISABLE_JIT)  # type: ignore[attr-defined]
-
-
 def _rebind(template: Callable[..., Any], bound: dict[str, Any]) -> types.FunctionType:
     plain = template.py_func if isinstance(template, Dispatcher) else template
     assert isinstance(plain, types.FunctionType)
@@ -114,7 +110,7 @@ def _pieces(item: Any, seen: set[int]) -> Iterator[str]:
             yield f"again {item.__qualname__}"
             return
         seen.add(id(item))
-        yield f"function {item.__module__} {_plain_name(item)}"
+        yield f"function {item.__module__} {item.__qualname__.split('<locals>')[-1]}"
         yield repr(item.__defaults__)
         yield from _code_pieces(item.__code__, item.__doc__)
         scope = inspect.getclosurevars(item)
@@ -141,10 +137,6 @@ def _constant(item: Any) -> str:
     elif isinstance(item, tuple):
         item = [_constant(part) for part in item]
     return f"{type(item).__qualname__} {item!r}"
-
-
-def _plain_name(function: types.FunctionType) -> str:
-    return function.__qualname__.split("<locals>")[-1]
 
 
 def _code_pieces(code: types.CodeType, docstring: str | None = None) -> Iterator[str]:
