@@ -217,21 +217,14 @@ def _reservations(case: Case, scene: Scene) -> Iterator[str]:
             f" vary by more than one per cent"
         )
     integrator: Integrator = case.integrator.create("integrators")
-    courant = _largest_courant_number(case, sound_speed)
-    if courant is not None and courant[0] > integrator.stability_limit:
-        number, parameter = courant
-        limit = integrator.stability_limit * case.smoothing_length_ratio * case.particle_spacing / sound_speed
+    smoothing_length, number, parameter = case.smoothing_length_ratio * case.particle_spacing, 0.0, ""
+    if case.time_step is not None:
+        number, parameter = sound_speed * case.time_step / smoothing_length, f"time_step = {case.time_step:g} s"
+    elif case.courant_number is not None:
+        number, parameter = case.courant_number, f"courant_number = {case.courant_number:g}"
+    if number > integrator.stability_limit:
+        limit = integrator.stability_limit * smoothing_length / sound_speed
         yield (
             f"{parameter} gives c0 dt/h = {number:.3g}, above the stability limit {integrator.stability_limit:g} of"
             f" {case.integrator.name}; choose a time step below {limit:.3g} s"
         )
-
-
-def _largest_courant_number(case: Case, sound_speed: float) -> tuple[float, str] | None:
-    """c0 dt/h of a fluid at rest and the parameter that sets it; None by default, when the integrator chooses."""
-    if case.time_step is not None:
-        number = sound_speed * case.time_step / (case.smoothing_length_ratio * case.particle_spacing)
-        return number, f"time_step = {case.time_step:g} s"
-    if case.courant_number is not None:
-        return case.courant_number, f"courant_number = {case.courant_number:g}"
-    return None

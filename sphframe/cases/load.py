@@ -53,18 +53,14 @@ def load_case(
     if isinstance(source, Case):
         model = type(source)
         parameters = {name: getattr(source, name) for name in source.model_fields_set}
-    elif Path(source).suffix == ".toml":
-        name, file_preset, parameters = read_toml(source)
-        parameters = _beside(parameters, Path(source).parent)
+    elif (kind := Path(source).suffix) in (".toml", ".nc"):
+        name, file_preset, parameters = read_toml(source) if kind == ".toml" else _read_output(Path(source))
+        if kind == ".toml":
+            parameters = _beside(parameters, Path(source).parent)
         if not trusted:
             _refuse_addresses(source, name, parameters, overrides or {})
         model = load("cases", name)
         parameters = {**_preset(model, file_preset), **parameters}
-    elif Path(source).suffix == ".nc":
-        name, parameters = _read_output(Path(source))
-        if not trusted:
-            _refuse_addresses(source, name, parameters, overrides or {})
-        model = load("cases", name)
     else:
         model, parameters = load("cases", str(source)), {}
     parameters = {**parameters, **_preset(model, preset)}
@@ -140,7 +136,7 @@ def _reason(error: Exception) -> str:
     return f"it is not valid TOML: {error}"
 
 
-def _read_output(path: Path) -> tuple[str, dict[str, Any]]:
+def _read_output(path: Path) -> tuple[str, None, dict[str, Any]]:
     import netCDF4  # takes a tenth of a second, needed only here
 
     try:
@@ -160,7 +156,7 @@ def _read_output(path: Path) -> tuple[str, dict[str, Any]]:
         parameters = None
     if not isinstance(name, str) or not isinstance(parameters, dict):
         raise InputError(f"{path}: its attributes case_name and case_parameters are damaged; run the case by name")
-    return name, parameters
+    return name, None, parameters
 
 
 def _refuse_addresses(
