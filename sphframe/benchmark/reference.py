@@ -34,7 +34,7 @@ class BareLoops:
         self.rows = np.zeros((n + len(ghosts.density), 8))
         for rows, part, volume in (
             (self.rows[:n], [field[self.order] for field in fluid], (simulation.masses() / fluid.density)[self.order]),
-            (self.rows[n:], list(ghosts), simulation.case.particle_spacing**2),
+            (self.rows[n:], list(ghosts), simulation.boundary.volume),
         ):
             rows[:, 0:2], rows[:, 2:4], rows[:, 4], rows[:, 5] = part
             rows[:, 6] = volume

@@ -28,7 +28,7 @@ def load_case(
 
     Parameters
     ----------
-    source: the name of an installed case; a path that ends in ``.toml``, a case file (see :func:`read_toml`); a path
+    source: the name of an installed case; a path that ends in ``.toml``, a case file (see ``read_toml``); a path
         that ends in ``.nc``, an output of sphframe whose run is to be repeated; or a case.
     preset: name of one of the case's presets.
     trusted: whether a file may name components as ``module:attribute``, whose code is then imported.

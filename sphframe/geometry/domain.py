@@ -123,7 +123,8 @@ def fluid_domain(
         shapely.polygonize(shapely.get_parts(shapely.unary_union([net, frame.boundary, *rims, *bars])))
     )
     core = shapely.buffer(fluid, -0.25 * spacing)  # a sliver on the other side of a wall does not count
-    wet = shapely.area(shapely.intersection(faces, core)) > 1e-6 * spacing**2
+    core = fluid if core.is_empty else core
+    wet = shapely.area(shapely.intersection(faces, core)) > 1e-6 * min(core.area, spacing**2)
     region = shapely.union_all(faces[_reached(faces, wet, shapely.union_all(rims), frame)])
     both = shapely.difference(shapely.intersection(net, region), shapely.buffer(region.boundary, _SAME * spacing))
     if shapely.length(both) > spacing:

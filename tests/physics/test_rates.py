@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from sphframe.boundary.corners import Shares
 from sphframe.compiled import specialise
 from sphframe.particles import Columns
 from sphframe.physics import wall_reaction
@@ -134,10 +135,12 @@ def test_wall_reaction_is_opposite_to_what_ghosts_do_to_the_fluid(dim):
     expected = -(masses[:, None] * (with_ghosts - without)[:, dim : 2 * dim]).sum(axis=0)
     ghosts = len(cloud.rows) - cloud.fluid_count
     walls = (np.arange(ghosts) % 2).astype(np.int64)
-    loads, partial = np.full((2, 3), np.nan), np.full((7, 2, 3), np.nan)
+    nothing = np.zeros((ghosts, dim))
+    size = 3 if dim == 2 else 6
+    loads, partial = np.full((2, size), np.nan), np.full((7, 2, size), np.nan)
     specialise(wall_reaction, cloud.parts())(
         cloud.rows, cloud.fluid_count, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, walls,
-        np.full_like(walls, -1), np.zeros((ghosts, dim)), np.zeros((2, dim)), cloud.parameters(viscosity=viscosity),
+        Shares(np.full_like(walls, -1), nothing, nothing), np.zeros((2, dim)), cloud.parameters(viscosity=viscosity),
         partial, loads,
     )  # fmt: skip
     np.testing.assert_allclose(loads[:, :dim].sum(axis=0), expected, rtol=1e-10)

@@ -48,8 +48,8 @@ FLUME: dict[str, Any] = {
     "probe_interval": 0.01,
     "walls": [
         PolygonWall(name="bed", points=[(-0.2, 0.0), (0.8, 0.0)]),
-        PolygonWall(name="paddle", points=[(0.0, 0.5), (0.0, 0.0)], body="paddle"),
-        PolygonWall(name="seawall", points=[(0.6, 0.0), (0.6, 0.5)], body="seawall"),
+        PolygonWall(name="paddle", points=[(0.0, 0.5), (0.0, 0.0)], body="paddle", one_sided=True),
+        PolygonWall(name="seawall", points=[(0.6, 0.0), (0.6, 0.5)], body="seawall", one_sided=True),
     ],
     "fluid": [BoxRegion(lower=(0.0, 0.0), upper=(0.6, 0.3))],
     "bodies": {

@@ -163,7 +163,10 @@ FILES: list[tuple[str, list[str]]] = [
     (TANK.replace('shape = "polygon"', 'shape = "circle"', 1), ["walls[0]", "'polygon' or 'box'"]),
     (TANK.replace(SHAPE, "[[0, 0]]"), ["walls[0].points = [[0, 0]]", "2 or more entries"]),
     (TANK.replace(SHAPE, SHAPE[:-1] + ', ["a", 1]]'), ["walls[0].points[4][0] = 'a'", "number"]),
-    (TANK.replace(SHAPE, "[[1.5, 0.5], [1, 0], [0, 0], [0, 0.5]]"), ["wall 'tank'", "fluid is on its left"]),
+    (
+        TANK + '[[walls]]\nname = "plate"\nshape = "polygon"\npoints = [[0.5, 0], [0.5, 0.5]]',
+        ["wall 'plate'", "runs through the fluid", "(0.5, "],
+    ),
     (TANK.replace("[1.5, 0.5]", "[1e9, 0.5]"), ["1000000000.02", "draw smaller walls"]),
     ("dimension = 3\n" + TANK, ["wall 'tank' has 2 coordinates", "needs 3"]),
     (TANK.replace("position = [1, 0]", "position = [7, 7]"), ["probe 'toe' at (7.0, 7.0)", "move it to a wall"]),

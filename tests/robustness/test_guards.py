@@ -28,7 +28,8 @@ def put(column: str, value: float) -> Callable[[Any], None]:
 
 def spoil_ghosts(simulation: Any) -> None:
     rows, pressure = simulation.system.rows, simulation.columns.pressure
-    simulation.system.fill_ghosts = lambda: rows.__setitem__((-1, pressure), np.nan)
+    highest = simulation.fluid_count + int(np.argmax(simulation.boundary.position[:, 1]))  # no particle sees it
+    simulation.system.fill_ghosts = lambda: rows.__setitem__((highest, pressure), np.nan)
 
 
 def spoil_body(simulation: Any) -> None:

@@ -12,8 +12,8 @@ DEPTH, LENGTH = 0.4, 0.6
 WEIGHT = 9810.0 * DEPTH * LENGTH
 WALLS = [
     {"shape": "polygon", "name": "bed", "points": [[-0.2, 0.0], [0.8, 0.0]]},
-    {"shape": "polygon", "name": "left", "points": [[0.0, 0.6], [0.0, 0.0]]},
-    {"shape": "polygon", "name": "right", "points": [[LENGTH, 0.0], [LENGTH, 0.6]]},
+    {"shape": "polygon", "name": "left", "points": [[0.0, 0.6], [0.0, 0.0]], "one_sided": True},
+    {"shape": "polygon", "name": "right", "points": [[LENGTH, 0.0], [LENGTH, 0.6]], "one_sided": True},
 ]
 
 
