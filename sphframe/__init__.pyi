@@ -1,7 +1,11 @@
 from sphframe.arrays import Array as Array
 from sphframe.boundary.operator import ParticleCloud as ParticleCloud
 from sphframe.cases import Case as Case
+from sphframe.cases import Guards as Guards
+from sphframe.cases import Parameter as Parameter
 from sphframe.cases import load_case as load_case
+from sphframe.cases import parameters_of as parameters_of
+from sphframe.cases import read_toml as read_toml
 from sphframe.compiled import fast_exp as fast_exp
 from sphframe.compiled import local_array as local_array
 from sphframe.errors import InputError as InputError
