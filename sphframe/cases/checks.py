@@ -96,7 +96,8 @@ def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
     yield from size_problems
     if size_problems:
         return
-    yield from fluid_problems(scene, spacing)
+    support = case.kernel.create("kernels").support * case.smoothing_length_ratio * spacing
+    yield from fluid_problems(scene, spacing, support)
     lower, upper = np.array(scene.domain)
     for probe in scene.probes:
         if np.any(np.array(probe.position) < lower) or np.any(np.array(probe.position) > upper):

@@ -10,7 +10,7 @@ import shapely
 from sphframe.arrays import Array
 from sphframe.cases.scene import Scene
 from sphframe.errors import InputError
-from sphframe.geometry import Region, WallGroup, common_part, fill, wall_groups
+from sphframe.geometry import PlaneWalls, Region, WallGroup, common_part, fill, wall_groups
 
 _THIN = 0.01
 """thickness over spacing below which an overlap or a gap is round-off"""
@@ -18,13 +18,21 @@ _NARROW = 0.75
 """width over spacing up to which a gap is taken for a mistake; a wider one is empty space"""
 
 
-def fluid_problems(scene: Scene, spacing: float) -> Iterator[str]:
-    """Yield what is wrong with the regions of fluid, for particles one ``spacing`` (m) apart."""
+def fluid_problems(scene: Scene, spacing: float, support: float) -> Iterator[str]:
+    """Yield what is wrong with walls and regions of fluid, for particles one ``spacing`` apart and a ``support``, m."""
     try:
         groups = [group for _, group in wall_groups(scene.walls, scene.fluid, spacing)]
     except InputError as error:
         yield str(error)
         return
+    for group in groups:
+        place = group.thin_place(0.95 * support) if isinstance(group, PlaneWalls) else None
+        if place is not None:
+            yield (
+                f"the solid within walls at ({place[0]:.6g}, {place[1]:.6g}) is thinner than the kernel's support, so"
+                f" that fluid would be felt through it; make it {support:.3g} m thick or more, or choose a smaller"
+                " particle_spacing"
+            )
     for index, region in enumerate(scene.fluid):
         yield from _region_problems(scene, index, region, groups, spacing)
         if scene.initial_pressure is not None and (region.level is not None or region.pressure is not None):
@@ -79,7 +87,7 @@ def fluid_reservations(scene: Scene, spacing: float) -> Iterator[str]:
     fluid = shapely.union_all([region.geometry(1e-3 * spacing) for region in scene.fluid], grid_size=1e-6 * spacing)
     point, width = _distances(fluid, walls, spacing)
     # the water's surface meets walls at an angle; only where both are about parallel are they meant to be one line
-    parallel = np.abs(width[:, 0] - width[:, 1]) < 0.15 * spacing
+    parallel = np.abs(width[:, 0] - width[:, 1]) < 0.05 * spacing
     for sign in (1.0, -1.0):
         wrong = parallel & (sign * width.mean(axis=1) > 2.0 * _THIN * spacing)
         if wrong.any():

@@ -99,7 +99,7 @@ class PlaneWalls(WallGroup):
     def __init__(self, walls: dict[int, Wall], fluid: shapely.Geometry, spacing: float) -> None:
         self._indices = np.array([*walls, NONE])  # the last stands for OPEN
         single = [k for k, wall in enumerate(walls.values()) if wall.one_sided]
-        outlines = {wall.name: wall.outline() for wall in walls.values()}
+        outlines = {wall.name: wall.outline(1e-3 * spacing) for wall in walls.values()}
         self.domain = fluid_domain(outlines, fluid, spacing, one_sided=single)
 
     def ghosts(self, spacing: float, layers: int) -> GhostPoints:
@@ -156,6 +156,23 @@ class PlaneWalls(WallGroup):
         centre = domain.start[walled][place] + share[:, None] * edge[place]
         area = np.stack([edge[:, 1], -edge[:, 0]], axis=1)[place] / count[place, None]
         return Panels(centre, area, self._indices[domain.wall[walled][place]])
+
+    def thin_place(self, least: float) -> tuple[float, float] | None:
+        """Return a point, m, where the solid within walls is thinner than ``least`` (m); None if there is none.
+
+        A solid is thick enough where a square of this width fits; a sharp edge belongs to what is behind it.
+        """
+        solid = shapely.difference(
+            shapely.buffer(self.domain.region, 2.0 * least, join_style="mitre"), self.domain.region
+        )
+        core = shapely.buffer(solid, -0.499 * least, join_style="mitre", mitre_limit=10.0)
+        thick = shapely.buffer(core, 0.5 * least, join_style="mitre", mitre_limit=10.0)
+        thin = shapely.get_parts(shapely.difference(solid, thick))
+        thin = thin[shapely.area(thin) > 0.01 * least**2]
+        if not len(thin):
+            return None
+        place = shapely.point_on_surface(thin[0])
+        return place.x, place.y
 
     def ends(self) -> list[End]:
         """Return the ends of walls from which the boundary of the domain continues in the open."""

@@ -1,32 +1,83 @@
-"""Geometry: walls as polygons and boxes, as they are drawn."""
+"""Geometry: walls as they are drawn: lines and closed outlines of any shape in 2-D, boxes in 3-D."""
 
 import itertools
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
+import shapely
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from sphframe.arrays import Array
-from sphframe.geometry.shapes import check_box
+from sphframe.geometry.shapes import Arc, Circle, Curve, Difference, Ellipse, PointsFile, Polyline, Union, check_box
 
 
-class PolygonWall(BaseModel):
-    """A polyline in 2-D, in either direction; ``closed`` joins the last point to the first.
+class Drawn(BaseModel):
+    """What all walls have beside their shape.
 
-    The fluid at the start tells which side of the wall is wet. A wall that ends in the open and that the fluid could
+    The fluid at the start tells which side of a wall is wet. A wall that ends in the open and that the fluid could
     flow round is wet on both sides, and ``one_sided`` says that its back stays dry, as that of a piston does.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    shape: Literal["polygon"] = "polygon"
     name: str = "wall"
-    points: tuple[tuple[float, float], ...] = Field(min_length=2)
-    closed: bool = False
     body: str | None = None
     """name of the body that carries the wall; None means a wall at rest"""
     one_sided: bool = False
     """whether the side without fluid at the start stays dry"""
+
+
+class ShapeWall(Drawn):
+    """A wall along the outline of a plane shape, or along an open line."""
+
+    def outline(self, tolerance: float | None = None) -> list[Array]:
+        """Return polylines (k, 2), m, at most ``tolerance`` (m) away from the wall."""
+        shape: Any = self
+        geometry = shape.geometry(shape.coarse if tolerance is None else tolerance)
+        lines = (
+            [geometry] if isinstance(geometry, shapely.LineString) else shapely.get_rings(shapely.get_parts(geometry))
+        )
+        return [shapely.get_coordinates(line) for line in lines]
+
+
+class PolylineWall(Polyline, ShapeWall):
+    """A wall of straight lines from point to point."""
+
+
+class CircleWall(Circle, ShapeWall):
+    """A circular wall, around the fluid or within it."""
+
+
+class ArcWall(Arc, ShapeWall):
+    """A wall along a part of a circle."""
+
+
+class EllipseWall(Ellipse, ShapeWall):
+    """An elliptic wall, around the fluid or within it."""
+
+
+class CurveWall(Curve, ShapeWall):
+    """A wall along a curve given by expressions."""
+
+
+class PointsWall(PointsFile, ShapeWall):
+    """A wall through the points of a file."""
+
+
+class UnionWall(Union, ShapeWall):
+    """A wall along the outline of several closed shapes."""
+
+
+class DifferenceWall(Difference, ShapeWall):
+    """A wall along the outline of a closed shape without others."""
+
+
+class PolygonWall(Drawn):
+    """A polyline in 2-D, in either direction; ``closed`` joins the last point to the first."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    shape: Literal["polygon"] = "polygon"
+    points: tuple[tuple[float, float], ...] = Field(min_length=2)
+    closed: bool = False
 
     @model_validator(mode="after")
     def _distinct_points(self) -> "PolygonWall":
@@ -39,23 +90,20 @@ class PolygonWall(BaseModel):
         """Dimension of space."""
         return 2
 
-    def outline(self) -> list[Array]:
-        """Polylines (k, dim) of the wall, m."""
+    def outline(self, tolerance: float | None = None) -> list[Array]:
+        """Return the polyline (k, 2) of the wall, m."""
         return [np.array([*self.points, *self.points[: int(self.closed)]], dtype=np.float64)]
 
 
-class BoxWall(BaseModel):
+class BoxWall(Drawn):
     """A rectangular (2-D) or box-shaped (3-D) container around the fluid, with some faces left open."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     shape: Literal["box"] = "box"
-    name: str = "wall"
     lower: tuple[float, ...] = Field(min_length=2, max_length=3)
     upper: tuple[float, ...] = Field(min_length=2, max_length=3)
     open_faces: tuple[Literal["-x", "+x", "-y", "+y", "-z", "+z"], ...] = ()
-    body: str | None = None
-    one_sided: bool = False
 
     @model_validator(mode="after")
     def _box(self) -> "BoxWall":
@@ -69,8 +117,8 @@ class BoxWall(BaseModel):
         """Dimension of space."""
         return len(self.lower)
 
-    def outline(self) -> list[Array]:
-        """Polylines (k, dim), m, of the edges of the box, in 3-D without those between two open faces."""
+    def outline(self, tolerance: float | None = None) -> list[Array]:
+        """Return polylines (k, dim), m, of the edges of the box, in 3-D without those between two open faces."""
         low, high = np.array(self.lower), np.array(self.upper)
         lines = []
         for axis in range(self.dimension):
@@ -84,4 +132,16 @@ class BoxWall(BaseModel):
         return lines
 
 
-Wall = Annotated[PolygonWall | BoxWall, Field(discriminator="shape")]
+Wall = Annotated[
+    PolygonWall
+    | BoxWall
+    | PolylineWall
+    | CircleWall
+    | ArcWall
+    | EllipseWall
+    | CurveWall
+    | PointsWall
+    | UnionWall
+    | DifferenceWall,
+    Field(discriminator="shape"),
+]

@@ -160,7 +160,7 @@ FILES: list[tuple[str, list[str]]] = [
     (TANK + '[bodies.b]\nname = "rocket"', ["'rocket'", "installed:"]),
     (TANK + '[bodies.b]\nname = "spring-mass"', ["needs 'mass'", "Its options"]),
     (TANK + '[bodies.b]\nname = "prescribed"\nfunction = "os.system"', ["function = 'os.system'", "callable"]),
-    (TANK.replace('shape = "polygon"', 'shape = "circle"', 1), ["walls[0]", "'polygon' or 'box'"]),
+    (TANK.replace('shape = "polygon"', 'shape = "potato"', 1), ["walls[0]", "'polygon'"]),
     (TANK.replace(SHAPE, "[[0, 0]]"), ["walls[0].points = [[0, 0]]", "2 or more entries"]),
     (TANK.replace(SHAPE, SHAPE[:-1] + ', ["a", 1]]'), ["walls[0].points[4][0] = 'a'", "number"]),
     (
