@@ -14,9 +14,9 @@ from sphframe.geometry import Region, Wall
 class Custom(Case):
     """Walls, fluid, bodies, probes and gauges, as fields here or as tables of a TOML file.
 
-    All lengths in m. A polygonal wall has the fluid on its left when its points are traversed; a box wall contains
-    it. Bodies carry the walls that name them. Fluid fills closed shapes (``sphframe show circle`` describes one and
-    names the others), each with its own ``level`` (m) or ``pressure`` (Pa) and ``velocity`` (m/s); by default it starts
+    All lengths in m. The side of a wall on which fluid is at the start is wet; a box wall contains the fluid. Bodies
+    carry the walls that name them. Fluid fills closed shapes (``sphframe show circle`` describes one and names the
+    others), each with its own ``level`` (m) or ``pressure`` (Pa) and ``velocity`` (m/s); by default it starts
     at rest, below the highest point of all regions that touch.
 
     Examples
