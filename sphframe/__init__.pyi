@@ -26,7 +26,9 @@ from sphframe.interfaces import Integrator as Integrator
 from sphframe.interfaces import Kernel as Kernel
 from sphframe.interfaces import Motion as Motion
 from sphframe.interfaces import RigidBody as RigidBody
+from sphframe.interfaces import Solid as Solid
 from sphframe.interfaces import Status as Status
+from sphframe.interfaces import Surroundings as Surroundings
 from sphframe.interfaces import System as System
 from sphframe.interfaces import Traits as Traits
 from sphframe.interfaces import WeightsFunction as WeightsFunction
