@@ -5,7 +5,7 @@ face without fluid belongs to the domain too if the fluid can flow into it above
 meet nothing are continued by open edges: along the wall, then upwards. Nothing bounds the fluid there.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -71,19 +71,15 @@ class Domain:
         share = np.einsum("ij,ij->i", points - start, along) / np.einsum("ij,ij->i", along, along)
         return start + np.clip(share, 0.0, 1.0)[:, None] * along, edge
 
-    def contains(self, points: Array) -> BoolArray:
-        """Return whether each of ``points`` (n, 2) lies in the domain."""
-        shapely.prepare(self.region)
-        return np.asarray(shapely.contains_xy(self.region, points[:, 0], points[:, 1]))
-
     def behind(self, points: Array) -> BoolArray:
         """Return whether each of ``points`` (n, 2) lies behind a wall: outside, and a wall is the nearest edge."""
-        behind = ~self.contains(points)
+        shapely.prepare(self.region)
+        behind = ~shapely.contains_xy(self.region, points[:, 0], points[:, 1])
         out = np.flatnonzero(behind)
         foot, edge = self.feet(points[out])
         on_wall = np.hypot(*(points[out] - foot).T) <= 1e-9 * (1.0 + np.abs(points[out]).max(initial=0.0))
         behind[out] = (self.wall[edge] != OPEN) & ~on_wall
-        return behind
+        return np.asarray(behind)
 
 
 def turning(before: Array, after: Array) -> Array:
@@ -93,7 +89,7 @@ def turning(before: Array, after: Array) -> Array:
 
 
 def fluid_domain(
-    walls: Mapping[str, Sequence[Array]], fluid: shapely.Geometry, spacing: float, *, one_sided: Iterable[int] = ()
+    walls: Mapping[str, Sequence[Array]], fluid: shapely.Geometry, spacing: float, *, one_sided: Sequence[int] = ()
 ) -> Domain:
     """Return the domain within ``walls`` that the ``fluid`` can reach.
 
@@ -106,22 +102,18 @@ def fluid_domain(
 
     Raises
     ------
-    InputError: when a wall crosses itself, or its fluid is on both sides.
+    InputError: when a wall runs through the fluid, or fluid can reach both of its sides; with its name and the place.
     """
     lines = _joined([LineString(line) for wall in walls.values() for line in wall], _SAME * spacing)
     owners = np.array([index for index, wall in enumerate(walls.values()) for _ in wall])
     net = shapely.unary_union(lines)
-    lowest, highest = (
-        shapely.bounds(shapely.union(net, fluid))[[0, 1]],
-        shapely.bounds(shapely.union(net, fluid))[[2, 3]],
-    )
+    lowest, highest = shapely.total_bounds([net, fluid]).reshape(2, 2)
     margin = 100.0 * spacing + 0.1 * float(np.max(highest - lowest))
     frame = shapely.box(*(lowest - margin), *(highest + margin))
-    single = shapely.union_all([line for line, owner in zip(lines, owners, strict=True) if owner in set(one_sided)])
+    single = shapely.union_all(np.array(lines)[np.isin(owners, one_sided)])
     rims, bars = _open_edges(net, single, frame, 8.0 * spacing)
-    faces = shapely.get_parts(
-        shapely.polygonize(shapely.get_parts(shapely.unary_union([net, frame.boundary, *rims, *bars])))
-    )
+    edges = shapely.unary_union([net, frame.boundary, *rims, *bars])
+    faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(edges)))
     core = shapely.buffer(fluid, -0.25 * spacing)  # a sliver on the other side of a wall does not count
     core = fluid if core.is_empty else core
     wet = shapely.area(shapely.intersection(faces, core)) > 1e-6 * min(core.area, spacing**2)
@@ -173,11 +165,10 @@ def _open_edges(
         here = np.array(point)
         along = directions[0] / np.hypot(*directions[0])
         further = here + onward * along
-        upwards = [np.array([further[0], top]), np.array([here[0], top])]
         if not single.is_empty and shapely.distance(Point(point), single) == 0.0:
             bars.append(shapely.intersection(LineString([here, here + size * along]), frame))
             continue
-        for path in ([here, further, upwards[0]], [here, upwards[1]]):
+        for path in ([here, further, (further[0], top)], [here, (here[0], top)]):
             edge = LineString(path)
             if edge.is_simple and shapely.intersection(edge, net).equals(Point(point)):
                 rims.append(edge)

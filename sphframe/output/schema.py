@@ -66,6 +66,8 @@ def _text(dimensions: tuple[str, ...], long_name: str) -> Variable:
     return Variable(dimensions, "", long_name, "text")
 
 
+_ABOUT = {"comment": "about the present centre of the body that carries the wall, or the origin"}
+
 VARIABLES: Mapping[str, Variable] = {
     # names along the dimensions
     "space": _text(("space",), "axis of space; gravity points along the last one, downwards"),
@@ -81,12 +83,9 @@ VARIABLES: Mapping[str, Variable] = {
         (), "1", "how the run stands", "i4", attributes={"flag_meanings": "running completed failed"}
     ),
     "run_message": _text((), "why the run failed"),
-    "probe_x": Variable(("probe",), "m", "position of the probe along x"),
-    "probe_y": Variable(("probe",), "m", "position of the probe along y"),
-    "probe_z": Variable(("probe",), "m", "position of the probe along z"),
+    **{f"probe_{axis}": Variable(("probe",), "m", f"position of the probe along {axis}") for axis in "xyz"},
     "probe_radius": Variable(("probe",), "m", "radius over which the probe averages; 0 for a point"),
-    "gauge_x": Variable(("gauge",), "m", "position of the gauge along x"),
-    "gauge_y": Variable(("gauge",), "m", "position of the gauge along y"),
+    **{f"gauge_{axis}": Variable(("gauge",), "m", f"position of the gauge along {axis}") for axis in "xy"},
     "probe_body": Variable(("probe",), "1", "index of the body that carries the probe; -1 for a probe at rest", "i4"),
     "gauge_body": Variable(("gauge",), "1", "index of the body that carries the gauge; -1 for a gauge at rest", "i4"),
     "part_wall": Variable(("part",), "1", "index of the wall of which it is a part", "i4"),
@@ -116,29 +115,18 @@ VARIABLES: Mapping[str, Variable] = {
     ),
     "particles_removed": Variable(("probe_time",), "1", "particles that left the domain and were removed", "i4"),
     "densities_outside": Variable(("probe_time",), "1", "particles with a density outside the guards' band", "i4"),
-    "wall_force": Variable(
-        ("probe_time", "wall", "space"), "N", "force of the fluid on the wall, reaction of its ghosts", per_width=True
-    ),
-    "wall_force_by_pressure": Variable(
-        ("probe_time", "wall", "space"), "N", "force of the fluid on the wall, integral of pressure", per_width=True
-    ),
     **{
-        f"{where}_moment{suffix}": Variable(
+        f"{where}_{load}{suffix}": Variable(
             ("probe_time", where, "space"),
-            "N m",
-            f"moment of the fluid on the {what}, {how}",
+            unit,
+            f"{load} of the fluid on the {what}, {how}",
             per_width=True,
-            attributes={"comment": "about the present centre of the body that carries the wall, or the origin"},
+            attributes=about,
         )
         for where, what in (("wall", "wall"), ("part", "part of a wall"))
+        for load, unit, about in (("force", "N", {}), ("moment", "N m", _ABOUT))
         for suffix, how in (("", "reaction of its ghosts"), ("_by_pressure", "integral of pressure"))
     },
-    "part_force": Variable(
-        ("probe_time", "part", "space"), "N", "force of the fluid on the part, reaction of its ghosts", per_width=True
-    ),
-    "part_force_by_pressure": Variable(
-        ("probe_time", "part", "space"), "N", "force of the fluid on the part, integral of pressure", per_width=True
-    ),
     "body_position": Variable(("probe_time", "body", "motion"), "m", "displacement of the body (angles in rad)"),
     "body_velocity": Variable(("probe_time", "body", "motion"), "m s-1", "velocity of the body (angles in rad)"),
     "body_acceleration": Variable(

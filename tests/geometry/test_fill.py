@@ -27,6 +27,8 @@ from sphframe.geometry import (
     fill,
 )
 
+from .wall_integrals import gaussian
+
 
 def beside_a_slope(angle: float) -> PolygonRegion:
     return PolygonRegion(points=((0, 0), (1, 0), (1 + 0.3 / math.tan(math.radians(angle)), 0.3), (0, 0.3)))
@@ -47,11 +49,6 @@ CURVED: dict[str, Region] = {
     ),
 }
 DX = 0.02
-
-
-def gaussian(r: np.ndarray, h: float) -> np.ndarray:
-    """The renormalised Gaussian, which is zero beyond 3 h."""
-    return (np.exp(-((r / h) ** 2)) - math.exp(-9.0)) / (math.pi * h**2 * (1.0 - 10.0 * math.exp(-9.0))) * (r < 3 * h)
 
 
 def filling(region: Region, spacing: float) -> np.ndarray:

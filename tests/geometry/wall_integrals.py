@@ -14,9 +14,8 @@ _CUT = np.exp(-9.0)
 _RATIO = 1.3
 
 
-def kernel(r, spacing):
-    """W(r) for h = 1.3 spacings, cut off at 3h."""
-    h = _RATIO * spacing
+def gaussian(r, h):
+    """The renormalised Gaussian, cut off at 3h."""
     return np.where(r < 3 * h, (np.exp(-((r / h) ** 2)) - _CUT) / (np.pi * h**2 * (1 - 10 * _CUT)), 0.0)
 
 
@@ -60,4 +59,4 @@ def filling_errors(domain, ghosts, spacing, within=None):
         points = points[shapely.contains_xy(within, *points.T)]
     exact = wall_integral(domain.region, points, spacing)
     distance = np.hypot(*np.moveaxis(points[:, None] - ghosts.position, -1, 0))
-    return kernel(distance, spacing) @ ghosts.volume - exact
+    return gaussian(distance, _RATIO * spacing) @ ghosts.volume - exact
