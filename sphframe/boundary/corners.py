@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sphframe.arrays import Array, IntArray
-from sphframe.geometry import GhostPoints, PlaneWalls, WallGroup, directions_to_world, to_world
+from sphframe.geometry import GhostPoints, WallGroup, directions_to_world, to_world
 from sphframe.interfaces import Motion
 
 
@@ -36,19 +36,20 @@ class Corners:
     def __init__(
         self, groups: Sequence[WallGroup], drawn: GhostPoints, wall_body: IntArray, centres: Array, reach: float
     ) -> None:
-        self._drawn, self._wall_body, self._centres, self._reach = drawn, wall_body, centres, reach
-        plane = [group for group in groups if isinstance(group, PlaneWalls)] if len(groups) > 1 else []
-        self._ends = [end for group in plane for end in group.ends()]
-        body = wall_body[drawn.wall]
-        self._turning = [k for k in range(len(centres)) if np.any(drawn.other[body == k] >= 0)]
+        self._drawn = Shares(drawn.other, drawn.other_normal, drawn.other_dual)
+        self._body, self._wall_body, self._centres, self._reach = wall_body[drawn.wall], wall_body, centres, reach
+        self._ends = [end for group in groups for end in group.ends()] if len(groups) > 1 else []
+        self._turning = [k for k in range(len(centres)) if np.any(drawn.other[self._body == k] >= 0)]
 
     def shares(self, position: Array, motions: Sequence[Motion]) -> Shares:
         """Return the shares of second walls in the forces on ghosts at ``position`` (g, dim), m, at present."""
-        drawn, body = self._drawn, self._wall_body[self._drawn.wall]
-        wall, normal, dual = drawn.other.copy(), drawn.other_normal.copy(), drawn.other_dual.copy()
+        if not self._ends and not self._turning:
+            return self._drawn
+        wall, normal, dual = self._drawn.wall.copy(), self._drawn.normal.copy(), self._drawn.dual.copy()
         for k in self._turning:
+            own = self._body == k
             for vectors in (normal, dual):
-                vectors[body == k] = directions_to_world(vectors[body == k], motions[k].position)
+                vectors[own] = directions_to_world(vectors[own], motions[k].position)
         for index, point, onward, outward in self._ends:
             carrier = self._wall_body[index]
             if carrier >= 0:
@@ -58,6 +59,6 @@ class Corners:
             offset = position - point
             beyond, behind = offset @ onward, offset @ outward
             here = (beyond > 0.0) & (beyond < self._reach) & (behind > 0.0) & (behind < self._reach)
-            here &= body != carrier
+            here &= self._body != carrier
             wall[here], normal[here], dual[here] = index, outward, outward
         return Shares(wall, normal, dual)

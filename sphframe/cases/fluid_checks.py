@@ -10,7 +10,8 @@ import shapely
 from sphframe.arrays import Array
 from sphframe.cases.scene import Scene
 from sphframe.errors import InputError
-from sphframe.geometry import PlaneWalls, Region, WallGroup, common_part, fill, wall_groups
+from sphframe.geometry import Region, WallGroup, common_part, fill, wall_groups, wall_lines
+from sphframe.geometry.shapes import CHORD
 
 _THIN = 0.01
 """thickness over spacing below which an overlap or a gap is round-off"""
@@ -26,7 +27,7 @@ def fluid_problems(scene: Scene, spacing: float, support: float) -> Iterator[str
         yield str(error)
         return
     for group in groups:
-        place = group.thin_place(0.95 * support) if isinstance(group, PlaneWalls) else None
+        place = group.thin_place(0.95 * support)
         if place is not None:
             yield (
                 f"the solid within walls at ({place[0]:.6g}, {place[1]:.6g}) is thinner than the kernel's support, so"
@@ -80,11 +81,10 @@ def _overlaps(regions: tuple[Region, ...], spacing: float) -> Iterator[str]:
 
 def fluid_reservations(scene: Scene, spacing: float) -> Iterator[str]:
     """Yield where fluid and wall are apart, or overlap, by less than a particle (2-D)."""
-    lines = [shapely.LineString(line) for wall in scene.walls for line in wall.outline() if line.shape[1] == 2]
-    if not lines:
+    walls = wall_lines(scene.walls, spacing)
+    if walls.is_empty:
         return
-    walls = shapely.union_all(lines)
-    fluid = shapely.union_all([region.geometry(1e-3 * spacing) for region in scene.fluid], grid_size=1e-6 * spacing)
+    fluid = shapely.union_all([region.geometry(CHORD * spacing) for region in scene.fluid], grid_size=1e-6 * spacing)
     point, width = _distances(fluid, walls, spacing)
     # the water's surface meets walls at an angle; only where both are about parallel are they meant to be one line
     parallel = np.abs(width[:, 0] - width[:, 1]) < 0.05 * spacing

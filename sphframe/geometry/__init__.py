@@ -11,7 +11,7 @@ from sphframe.geometry.frames import (
     turned,
     turning_velocities,
 )
-from sphframe.geometry.ghosts import GhostPoints, Panels, PlaneWalls, WallGroup, ghosts_of, panels_of, wall_groups
+from sphframe.geometry.ghosts import GhostPoints, Panels, WallGroup, ghosts_of, panels_of, wall_groups
 from sphframe.geometry.regions import (
     BoxRegion,
     CircleRegion,
@@ -45,7 +45,7 @@ from sphframe.geometry.shapes import (
     Union,
 )
 from sphframe.geometry.solids import solid_of, solid_within
-from sphframe.geometry.walls import BoxWall, PolygonWall, Wall
+from sphframe.geometry.walls import BoxWall, PolygonWall, Wall, wall_lines
 
 __all__ = [
     "SHAPES",
@@ -69,7 +69,6 @@ __all__ = [
     "Mesh",
     "MeshRegion",
     "Panels",
-    "PlaneWalls",
     "PointsFile",
     "PointsRegion",
     "Polygon",
@@ -99,4 +98,5 @@ __all__ = [
     "turned",
     "turning_velocities",
     "wall_groups",
+    "wall_lines",
 ]

@@ -12,7 +12,7 @@ import shapely
 from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.geometry.columns import parts_inside, straight_faces
 from sphframe.geometry.regions import Region
-from sphframe.geometry.shapes import Box, grid
+from sphframe.geometry.shapes import CHORD, Box, grid
 
 _PARTS = 8
 """parts along each edge into which cells near an outline are divided"""
@@ -65,7 +65,7 @@ def _filled(region: Region, spacing: float) -> Fill:
 
 
 def _filled_area(region: Region, spacing: float) -> Fill:
-    area = region.geometry(1e-3 * spacing)
+    area = region.geometry(CHORD * spacing)
     lower, upper = np.reshape(area.bounds, (2, 2))
     lattice = _Lattice.over(lower, upper, spacing, straight_edges(area))
     near = np.flatnonzero(lattice.around(shapely.get_coordinates(shapely.segmentize(area.boundary, 0.25 * spacing))))
@@ -112,7 +112,7 @@ def common_part(one: Region, other: Region, spacing: float) -> tuple[float, Arra
     An overlap thinner than a hundredth of a ``spacing`` is round-off; between solids other than boxes, than a tenth.
     """
     if one.dimension == 2:
-        common = one.geometry(1e-3 * spacing).intersection(other.geometry(1e-3 * spacing))
+        common = one.geometry(CHORD * spacing).intersection(other.geometry(CHORD * spacing))
         thin = common.buffer(-0.005 * spacing).is_empty
         return None if thin else (float(common.area), shapely.get_coordinates(common.centroid)[0])
     bounds = np.array([one.bounds(), other.bounds()])

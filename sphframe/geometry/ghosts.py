@@ -13,7 +13,6 @@ section 2.2.
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import NamedTuple, final
 
 import numpy as np
@@ -21,16 +20,15 @@ import shapely
 
 from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.geometry.domain import OPEN, fluid_domain
-from sphframe.geometry.layers import layer_points
-from sphframe.geometry.shapes import Shape, grid
+from sphframe.geometry.layers import LONGEST_MITRE, layer_points
+from sphframe.geometry.shapes import CHORD, Shape, grid
 from sphframe.geometry.walls import BoxWall, Wall
 
 NONE = -1
 """index of a wall or body that there is not"""
 
 
-@dataclass(frozen=True)
-class GhostPoints:
+class GhostPoints(NamedTuple):
     """Fixed ghost particles, in m, as drawn (before any body moves).
 
     ``position`` (g, dim), ``mirror`` (g, dim), ``reflection`` (g, dim, dim) for free slip, ``volume`` (g,) in m^dim,
@@ -49,8 +47,7 @@ class GhostPoints:
     other_dual: Array
 
 
-@dataclass(frozen=True)
-class Panels:
+class Panels(NamedTuple):
     """Panel ``centre`` (k, dim), m; ``area`` (k, dim), the area vector out of the fluid, m^(dim-1); ``wall`` (k,)."""
 
     centre: Array
@@ -82,6 +79,14 @@ class WallGroup(ABC):
     def behind(self, points: Array) -> BoolArray:
         """Return whether each of ``points`` (n, dim), m, lies behind one of the walls, and not on it."""
 
+    @abstractmethod
+    def ends(self) -> list[End]:
+        """Return the ends of walls from which the boundary of the domain continues in the open."""
+
+    @abstractmethod
+    def thin_place(self, least: float) -> tuple[float, ...] | None:
+        """Return a point, m, where the solid within walls is thinner than ``least`` (m); None if there is none."""
+
 
 @final
 class PlaneWalls(WallGroup):
@@ -99,7 +104,7 @@ class PlaneWalls(WallGroup):
     def __init__(self, walls: dict[int, Wall], fluid: shapely.Geometry, spacing: float) -> None:
         self._indices = np.array([*walls, NONE])  # the last stands for OPEN
         single = [k for k, wall in enumerate(walls.values()) if wall.one_sided]
-        outlines = {wall.name: wall.outline(1e-3 * spacing) for wall in walls.values()}
+        outlines = {wall.name: wall.outline(CHORD * spacing) for wall in walls.values()}
         self.domain = fluid_domain(outlines, fluid, spacing, one_sided=single)
 
     def ghosts(self, spacing: float, layers: int) -> GhostPoints:
@@ -157,7 +162,7 @@ class PlaneWalls(WallGroup):
         area = np.stack([edge[:, 1], -edge[:, 0]], axis=1)[place] / count[place, None]
         return Panels(centre, area, self._indices[domain.wall[walled][place]])
 
-    def thin_place(self, least: float) -> tuple[float, float] | None:
+    def thin_place(self, least: float) -> tuple[float, ...] | None:
         """Return a point, m, where the solid within walls is thinner than ``least`` (m); None if there is none.
 
         A solid is thick enough where a square of this width fits; a sharp edge belongs to what is behind it.
@@ -165,8 +170,8 @@ class PlaneWalls(WallGroup):
         solid = shapely.difference(
             shapely.buffer(self.domain.region, 2.0 * least, join_style="mitre"), self.domain.region
         )
-        core = shapely.buffer(solid, -0.499 * least, join_style="mitre", mitre_limit=10.0)
-        thick = shapely.buffer(core, 0.5 * least, join_style="mitre", mitre_limit=10.0)
+        core = shapely.buffer(solid, -0.499 * least, join_style="mitre", mitre_limit=LONGEST_MITRE)
+        thick = shapely.buffer(core, 0.5 * least, join_style="mitre", mitre_limit=LONGEST_MITRE)
         thin = shapely.get_parts(shapely.difference(solid, thick))
         thin = thin[shapely.area(thin) > 0.01 * least**2]
         if not len(thin):
@@ -259,6 +264,13 @@ class BoxWalls(WallGroup):
         on_wall = 1e-9 * float(np.max(self._box_upper - self._box_lower))
         return np.asarray(np.any((points < self._lower - on_wall) | (points > self._upper + on_wall), axis=1))
 
+    def ends(self) -> list[End]:
+        """Return nothing: forces in the corners of a box belong to the box."""
+        return []
+
+    def thin_place(self, least: float) -> None:
+        """Return None: a box is a container, and what is behind it has no other side."""
+
 
 def wall_groups(walls: tuple[Wall, ...], fluid: Sequence[Shape], spacing: float) -> list[tuple[str | None, WallGroup]]:
     """Return the groups of ``walls`` with the names of their bodies, None at rest.
@@ -275,7 +287,7 @@ def wall_groups(walls: tuple[Wall, ...], fluid: Sequence[Shape], spacing: float)
     """
     if walls[0].dimension == 3:
         return [(wall.body, BoxWalls(k, wall)) for k, wall in enumerate(walls) if isinstance(wall, BoxWall)]
-    whole = shapely.union_all([region.geometry(1e-3 * spacing) for region in fluid])
+    whole = shapely.union_all([region.geometry(CHORD * spacing) for region in fluid])
     bodies = dict.fromkeys(wall.body for wall in walls)
     return [
         (body, PlaneWalls({k: wall for k, wall in enumerate(walls) if wall.body == body}, whole, spacing))
@@ -286,10 +298,10 @@ def wall_groups(walls: tuple[Wall, ...], fluid: Sequence[Shape], spacing: float)
 def ghosts_of(groups: Sequence[WallGroup], spacing: float, layers: int) -> GhostPoints:
     """Return the ghosts of all ``groups``; see :meth:`WallGroup.ghosts`."""
     parts = [group.ghosts(spacing, layers) for group in groups]
-    return GhostPoints(*(np.concatenate([vars(part)[name] for part in parts]) for name in vars(parts[0])))
+    return GhostPoints(*map(np.concatenate, zip(*parts, strict=True)))
 
 
 def panels_of(groups: Sequence[WallGroup], spacing: float) -> Panels:
     """Return the panels of all ``groups``; see :meth:`WallGroup.panels`."""
     parts = [group.panels(spacing) for group in groups]
-    return Panels(*(np.concatenate([vars(part)[name] for part in parts]) for name in vars(parts[0])))
+    return Panels(*map(np.concatenate, zip(*parts, strict=True)))

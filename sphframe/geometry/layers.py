@@ -19,7 +19,7 @@ from shapely import LineString
 from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.geometry.domain import OPEN, SHARP, Domain, turning
 
-_MITRE = 10.0
+LONGEST_MITRE = 10.0
 """longest mitre over the distance of the layer"""
 _LARGE, _FAR = 1.3, 0.8
 """volume, over that of a particle, from which a part of the solid is divided, at this distance from its point, dx"""
@@ -47,15 +47,16 @@ def layer_points(domain: Domain, spacing: float, layers: int) -> LayerPoints:
     ]
     position = np.vstack([points for points, _ in found])
     volume = np.concatenate([lengths for _, lengths in found]) * spacing
-    needed = _behind_walls(position, domain, 1.5 * layers * spacing, 3.0 * spacing)
+    reach = 1.5 * layers * spacing
+    needed = _behind_walls(position, domain, reach, 3.0 * spacing)
     position, volume = _corrected(position[needed], volume[needed], domain, spacing, layers)
-    kept = _behind_walls(position, domain, 1.5 * layers * spacing, 0.0)
-    foot, edge = domain.feet(position[kept])
-    return LayerPoints(position[kept], volume[kept], foot, edge)
+    foot, edge = domain.feet(position)
+    kept = (domain.wall[edge] != OPEN) & (np.hypot(*(position - foot).T) < reach)
+    return LayerPoints(position[kept], volume[kept], foot[kept], edge[kept])
 
 
 def _grown(domain: Domain, distance: float) -> shapely.Geometry:
-    return shapely.buffer(domain.region, distance, join_style="mitre", mitre_limit=_MITRE)
+    return shapely.buffer(domain.region, distance, join_style="mitre", mitre_limit=LONGEST_MITRE)
 
 
 def _along(ring: LineString, domain: Domain, distance: float, spacing: float) -> tuple[Array, Array]:

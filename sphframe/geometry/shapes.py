@@ -18,6 +18,8 @@ Point = tuple[float, float]
 Point3 = tuple[float, float, float]
 Length = Annotated[float, Field(gt=0)]
 
+CHORD = 1e-3
+"""greatest distance of a chord from the curve that it replaces, over the particle spacing"""
 _COARSE = 1e-3
 """share of its extent to which a shape is followed where it is only checked or bounded"""
 

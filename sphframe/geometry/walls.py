@@ -1,14 +1,27 @@
 """Geometry: walls as they are drawn: lines and closed outlines of any shape in 2-D, boxes in 3-D."""
 
 import itertools
+from collections.abc import Sequence
 from typing import Annotated, Any, Literal
 
 import numpy as np
 import shapely
 from pydantic import BaseModel, ConfigDict, Field, model_validator
+from shapely import LineString
 
 from sphframe.arrays import Array
-from sphframe.geometry.shapes import Arc, Circle, Curve, Difference, Ellipse, PointsFile, Polyline, Union, check_box
+from sphframe.geometry.shapes import (
+    CHORD,
+    Arc,
+    Circle,
+    Curve,
+    Difference,
+    Ellipse,
+    PointsFile,
+    Polyline,
+    Union,
+    check_box,
+)
 
 
 class Drawn(BaseModel):
@@ -32,9 +45,7 @@ class ShapeWall(Drawn):
         """Return polylines (k, 2), m, at most ``tolerance`` (m) away from the wall."""
         shape: Any = self
         geometry = shape.geometry(shape.coarse if tolerance is None else tolerance)
-        lines = (
-            [geometry] if isinstance(geometry, shapely.LineString) else shapely.get_rings(shapely.get_parts(geometry))
-        )
+        lines = [geometry] if isinstance(geometry, LineString) else shapely.get_rings(shapely.get_parts(geometry))
         return [shapely.get_coordinates(line) for line in lines]
 
 
@@ -145,3 +156,9 @@ Wall = Annotated[
     | DifferenceWall,
     Field(discriminator="shape"),
 ]
+
+
+def wall_lines(walls: Sequence[Wall], spacing: float) -> shapely.Geometry:
+    """Return the lines of all plane ``walls``, with chords fine enough for particles one ``spacing`` (m) apart."""
+    plane = [wall for wall in walls if wall.dimension == 2]
+    return shapely.union_all([LineString(line) for wall in plane for line in wall.outline(CHORD * spacing)])

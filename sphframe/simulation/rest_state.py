@@ -9,7 +9,7 @@ import shapely
 
 from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.cases import Scene
-from sphframe.geometry import WallGroup
+from sphframe.geometry import WallGroup, wall_lines
 
 _TOUCHING = 1.3
 """distance of particles over spacing up to which their regions touch"""
@@ -18,18 +18,14 @@ _TOUCHING = 1.3
 def still_levels(scene: Scene, positions: Sequence[Array], spacing: float, groups: Sequence[WallGroup]) -> Array:
     """Return the still water level (n,), m, of each region of fluid, whose particles are at ``positions``.
 
-    ``groups``: the walls of ``scene``.
-
     It is the ``level`` of the region. Regions without one share the highest point, or level, of all regions that are
     connected with them by touching regions; in 2-D, regions on both sides of a wall do not touch. Fluid that does not
-    stand on a wall falls freely: its pressure is zero, and its level minus infinity.
+    stand on a wall falls freely: its pressure is zero, and its level minus infinity. ``groups`` are the walls.
     """
     count = len(positions)
     given = np.array([np.nan if region.level is None else region.level for region in scene.fluid])
     own = np.where(np.isnan(given), [region.bounds()[1][-1] for region in scene.fluid], given)
-    walls = shapely.union_all(
-        [shapely.LineString(line) for wall in scene.walls if wall.dimension == 2 for line in wall.outline()]
-    )
+    walls = wall_lines(scene.walls, spacing)
     component = _components(positions, walls, spacing) if count > 1 else np.zeros(1, dtype=int)
     levels = given.copy()
     for c in np.unique(component):

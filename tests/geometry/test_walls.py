@@ -130,7 +130,7 @@ def test_the_direction_in_which_a_wall_is_drawn_does_not_matter():
     one, other = (group_of(PolygonWall(points=points)).ghosts(0.05, 4) for points in (TANK.points, TANK.points[::-1]))
     order, other_order = (np.lexsort(ghosts.position.round(9).T) for ghosts in (one, other))
     for name in ("position", "mirror", "reflection", "volume"):
-        np.testing.assert_allclose(vars(one)[name][order], vars(other)[name][other_order], atol=1e-12)
+        np.testing.assert_allclose(getattr(one, name)[order], getattr(other, name)[other_order], atol=1e-12)
 
 
 def test_a_corner_between_two_walls_is_shared():

@@ -132,3 +132,10 @@ def test_fluid_up_to_a_leaning_wall_leaves_no_sliver(tmp_path: Path) -> None:
     for fluid, top in ((slope, 1.5), (overhang, 0.5)):
         wall = {"shape": "polygon", "name": "tank", "points": ((0, 0.5), (0, 0), (1, 0), (top, 0.5))}
         case(fluid, walls=(wall,))
+
+
+@pytest.mark.parametrize("spacing", [0.02, 0.005])
+def test_fluid_that_fills_a_curved_wall_leaves_no_gap_at_any_spacing(spacing: float) -> None:
+    disc = {"shape": "circle", "centre": (0, 0), "radius": 0.3}
+    lower_half = {"shape": "difference", "of": disc, "minus": [{"shape": "box", "lower": (-1, 0), "upper": (1, 1)}]}
+    case(lower_half, walls=({**disc, "name": "drum"},), dx=spacing)  # a CaseWarning is an error here
