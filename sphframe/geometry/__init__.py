@@ -11,7 +11,8 @@ from sphframe.geometry.frames import (
     turned,
     turning_velocities,
 )
-from sphframe.geometry.ghosts import GhostPoints, Panels, WallGroup, ghosts_of, panels_of, wall_groups
+from sphframe.geometry.ghosts import GhostPoints, Panels, WallGroup
+from sphframe.geometry.groups import ghosts_of, panels_of, wall_groups
 from sphframe.geometry.regions import (
     BoxRegion,
     CircleRegion,

@@ -1,0 +1,46 @@
+"""Geometry: the groups of the walls of a scene, their ghosts and panels together."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+
+from sphframe.geometry.box_walls import BoxWalls
+from sphframe.geometry.ghosts import GhostPoints, Panels, PlaneWalls, WallGroup
+from sphframe.geometry.shapes import CHORD, Shape
+from sphframe.geometry.walls import BoxWall, Wall
+
+
+def wall_groups(walls: tuple[Wall, ...], fluid: Sequence[Shape], spacing: float) -> list[tuple[str | None, WallGroup]]:
+    """Return the groups of ``walls`` with the names of their bodies, None at rest.
+
+    Parameters
+    ----------
+    walls: all walls of a scene. Those of three dimensions are groups of their own.
+    fluid: regions of the fluid at the start; not used in 3-D.
+    spacing: of the particles, m.
+
+    Raises
+    ------
+    InputError: when the side of the fluid is ambiguous.
+    """
+    if walls[0].dimension == 3:
+        return [(wall.body, BoxWalls(k, wall)) for k, wall in enumerate(walls) if isinstance(wall, BoxWall)]
+    whole = shapely.union_all([region.geometry(CHORD * spacing) for region in fluid])
+    bodies = dict.fromkeys(wall.body for wall in walls)
+    return [
+        (body, PlaneWalls({k: wall for k, wall in enumerate(walls) if wall.body == body}, whole, spacing))
+        for body in bodies
+    ]
+
+
+def ghosts_of(groups: Sequence[WallGroup], spacing: float, layers: int) -> GhostPoints:
+    """Return the ghosts of all ``groups``; see :meth:`WallGroup.ghosts`."""
+    parts = [group.ghosts(spacing, layers) for group in groups]
+    return GhostPoints(*map(np.concatenate, zip(*parts, strict=True)))
+
+
+def panels_of(groups: Sequence[WallGroup], spacing: float) -> Panels:
+    """Return the panels of all ``groups``; see :meth:`WallGroup.panels`."""
+    parts = [group.panels(spacing) for group in groups]
+    return Panels(*map(np.concatenate, zip(*parts, strict=True)))
