@@ -10,7 +10,7 @@ from sphframe.boundary.movement import move_ghosts
 from sphframe.geometry import Shape, Wall, ghosts_of, rotation_matrix, wall_groups
 from sphframe.interfaces import EvaluationPoint, Motion, RigidBody, Status
 
-_STATE = ("position", "mirror", "reflection", "velocity", "acceleration", "driving", "statuses")
+_STATE = ("position", "mirror", "foot", "normal", "reflection", "velocity", "acceleration", "driving", "statuses")
 
 
 class Boundary:
@@ -19,6 +19,9 @@ class Boundary:
     Attributes
     ----------
     position, mirror: (g, dim) ghosts and mirror points at present, m.
+    foot: (g, dim) the wall's point next to each ghost, m; ``normal`` (g, dim) unit vector from there to the ghost.
+    depth: (g,) of each ghost behind its foot, m; ``height`` (g,) of its evaluation point above the wall, at least a
+        tenth of it, m.
     points: (g, dim) where the method evaluates the fluid; ``lifts`` (g, dim) from there to the ghosts.
     reflection: (g, dim, dim) maps the fluid's velocity relative to the wall to that of the ghost.
     velocity, acceleration: (g, dim) of the wall at each ghost; ``driving`` (g, dim): rho0 (f - a_wall), N/m^3.
@@ -57,9 +60,14 @@ class Boundary:
         self._drawn_reflection = np.tile(-np.eye(self.dim), (len(self.wall), 1, 1)) if no_slip else drawn.reflection
         self.position = drawn.position.copy()
         self.mirror = drawn.mirror.copy()
+        self.foot = drawn.foot.copy()
+        self.normal = drawn.normal.copy()
         self.reflection = self._drawn_reflection.copy()
         self.points = self.position if evaluation_point is EvaluationPoint.GHOST else self.mirror
         self.lifts = self.position - self.points
+        self.depth = np.einsum("gi,gi->g", self.position - self.foot, self.normal)
+        height = np.einsum("gi,gi->g", self.foot - self.points, self.normal)
+        self.height = np.maximum(height, 0.1 * self.depth)
         self.velocity = np.zeros_like(self.position)
         self.acceleration = np.zeros_like(self.position)
         self.driving = np.zeros_like(self.position)
@@ -86,9 +94,9 @@ class Boundary:
             velocity = np.array([motion.velocity for motion in motions])
             acceleration = np.array([motion.acceleration for motion in motions])
             move_ghosts(
-                self._drawn.position, self._drawn.mirror, self._drawn_reflection, self.body, self.centres,
+                self._drawn, self._drawn_reflection, self.body, self.centres,
                 position, velocity, acceleration, rotations.reshape(-1, 3, 3),
-                self.position, self.mirror, self.reflection, self.velocity, self.acceleration,
+                self.position, self.mirror, self.foot, self.normal, self.reflection, self.velocity, self.acceleration,
             )  # fmt: skip
             if self.points is not self.position:
                 np.subtract(self.position, self.points, out=self.lifts)

@@ -39,7 +39,7 @@ class Filling:
             {
                 **parts,
                 "BALANCED": balanced or evaluation_point is EvaluationPoint.GHOST,
-                "SCALED": balanced and corrected,
+                "SCALED": balanced and corrected and evaluation_point is not EvaluationPoint.GHOST,
                 "EXTRAPOLATED": evaluation_point is EvaluationPoint.EXTRAPOLATED,
                 "WEIGHTS": interpolator.point_weights(kernel, self._dim),
                 "FALLBACK": interpolator.fallback_weights(kernel, self._dim),
@@ -55,7 +55,8 @@ class Filling:
             self._scratch = Scratch.of(lists.points.shape[1], self._dim)
         self._fill(
             rows, lists.fluid_count, lists.points, lists.point_counts, boundary.points, boundary.lifts,
-            boundary.reflection, boundary.velocity, boundary.driving, parameters, self._scratch, boundary.statuses,
+            boundary.normal, boundary.depth, boundary.height, boundary.reflection, boundary.velocity, boundary.driving,
+            parameters, self._scratch, boundary.statuses,
         )  # fmt: skip
         if self._make_conjugate is not None:
             self._make_conjugate(

@@ -10,11 +10,11 @@ dp/dn = rho (f - a_wall).n the ghost is assigned::
 
 S is the reflection of the wall for free slip and -1 for no slip: it keeps some components of the relative velocity
 and reverses the others, which vanish at the wall. With the balanced lift and ``ghost_velocity = "corrected"`` the
-reversed components are scaled by s = d / sum_j Phi_j d_j, where d is the distance from the wall. This is exact for a
-velocity that grows linearly from the wall, for any weights that sum to one. In all other cases, and where the method
-evaluates at the ghost, s = 1; for the correction with the mirror lift see :mod:`sphframe.boundary.conjugate`. Negative
-pressures are clipped to zero. The density follows from the inverse equation of state. A point without neighbours is
-DRY: p_G = 0, u_G = u_wall.
+reversed components are scaled by s = d / sum_j Phi_j d_j, where d is the distance from the wall along its normal at the
+foot of the ghost. This is exact for a velocity that grows linearly from the wall, for any weights that sum to one. In
+all other cases, and where the method evaluates at the ghost, s = 1; for the correction with the mirror lift see
+:mod:`sphframe.boundary.conjugate`. Negative pressures are clipped to zero. The density follows from the inverse
+equation of state. A point without neighbours is DRY: p_G = 0, u_G = u_wall.
 
 Reason for s: weights of zeroth order sample the fluid at a larger distance from the wall than that of the mirror point.
 Without s the normal velocity of the ghosts is too large, the divergence at the wall is wrong, and the pressure of the
@@ -79,14 +79,15 @@ class Scratch(NamedTuple):
 
 
 def fill_ghosts(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, counts, points, lifts, reflections, wall_velocities, driving_forces,
-    parameters, scratch, statuses,
+    rows, fluid_count, lists, counts, points, lifts, normals, depths, heights, reflections, wall_velocities,
+    driving_forces, parameters, scratch, statuses,
 ):  # fmt: skip
     """Interpolate to ``points`` (g, dim) and assign the ghosts, rows ``fluid_count`` .. ``fluid_count + g``.
 
-    ``lifts`` (g, dim): from evaluation point to ghost, m; ``reflections`` (g, dim, dim); ``wall_velocities``
-    (g, dim), m/s; ``driving_forces`` (g, dim): rho0 (f - a_wall), N/m^3; ``parameters`` are
-    :class:`LoopParameters`, ``scratch`` is a :class:`Scratch`. ``statuses`` (g,) is written.
+    ``lifts`` (g, dim): from evaluation point to ghost, m; ``normals`` (g, dim), ``depths`` (g,), ``heights`` (g,),
+    ``reflections`` (g, dim, dim), ``wall_velocities`` (g, dim): see :class:`~sphframe.boundary.boundary.Boundary`;
+    ``driving_forces`` (g, dim): rho0 (f - a_wall), N/m^3; ``parameters`` are :class:`LoopParameters`, ``scratch`` is a
+    :class:`Scratch`. ``statuses`` (g,) is written.
     """
     support = parameters.support
     limit = support * support
@@ -170,15 +171,12 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                         pressure += driving_forces[g, d] * lifts[g, d]
                 pressure = max(pressure, 0.0)
 
-                slope = 1.0  # s of the module's docstring; the lift is 2 d n, and d_j = d - (x_j - x_M).n
+                slope = 1.0  # s of the module's docstring; d_j is the height of r less (x_j - r).n
                 if SCALED and n > 0:
-                    span = 0.0
-                    moment = 0.0
+                    distance = total * heights[g]
                     for d in range(DIM):
-                        span += lifts[g, d] * lifts[g, d]
-                        moment += mean_offset[d] * lifts[g, d]
-                    if span > 0.0:
-                        slope = span / max(span - 2.0 * moment, 0.5 * span)
+                        distance -= mean_offset[d] * normals[g, d]
+                    slope = depths[g] / max(distance, 0.5 * heights[g])
 
                 row = fluid_count + g
                 for d in range(DIM):

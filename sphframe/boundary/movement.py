@@ -1,11 +1,11 @@
-"""Boundary: ghosts and mirror points carried by rigid bodies.
+"""Boundary: ghosts, mirror points and feet carried by rigid bodies.
 
 ::
 
     x = c + X + R (x0 - c),    u = U + omega x r,    a = A + alpha x r + omega x (omega x r),    r = x - c - X
 
 with the body's centre c as drawn, its displacement X and its rotation R. The reflection matrices S turn with the body,
-R S R^T.
+R S R^T, and so do the normals, R n.
 """
 
 import math
@@ -27,16 +27,16 @@ def _cross(a, x, y, z):  # type: ignore[no-untyped-def]
 
 @numba.njit(cache=True, error_model="numpy")
 def move_ghosts(  # type: ignore[no-untyped-def]
-    drawn, drawn_mirror, drawn_reflection, ghost_body, centres, positions, velocities, accelerations, rotations,
-    position, mirror, reflection, velocity, acceleration,
+    drawn, drawn_reflection, ghost_body, centres, positions, velocities, accelerations, rotations,
+    position, mirror, foot, normal, reflection, velocity, acceleration,
 ):  # fmt: skip
-    """Write the last five arrays for ghosts whose ``ghost_body`` is not -1.
+    """Write the last seven arrays for ghosts whose ``ghost_body`` is not -1; ``drawn`` are :class:`GhostPoints`.
 
     ``positions``, ``velocities``, ``accelerations`` (bodies, 3 or 6) are generalised coordinates; ``rotations``
-    (bodies, 3, 3) the rotation matrices in 3-D.
+    (bodies, 3, 3) the rotation matrices in 3-D. Velocity and acceleration are those of the wall at the foot.
     """
-    dim = drawn.shape[1]
-    for g in range(drawn.shape[0]):
+    dim = position.shape[1]
+    for g in range(position.shape[0]):
         b = ghost_body[g]
         if b < 0:
             continue
@@ -45,19 +45,20 @@ def move_ghosts(  # type: ignore[no-untyped-def]
             sin = math.sin(positions[b, 2])
             omega = velocities[b, 2]
             alpha = accelerations[b, 2]
-            rx, ry = _turned(drawn[g, 0] - centres[b, 0], drawn[g, 1] - centres[b, 1], cos, sin)
-            mx, my = _turned(drawn_mirror[g, 0] - centres[b, 0], drawn_mirror[g, 1] - centres[b, 1], cos, sin)
+            rx, ry = _turned(drawn.position[g, 0] - centres[b, 0], drawn.position[g, 1] - centres[b, 1], cos, sin)
+            mx, my = _turned(drawn.mirror[g, 0] - centres[b, 0], drawn.mirror[g, 1] - centres[b, 1], cos, sin)
+            fx, fy = _turned(drawn.foot[g, 0] - centres[b, 0], drawn.foot[g, 1] - centres[b, 1], cos, sin)
             position[g, 0] = centres[b, 0] + positions[b, 0] + rx
             position[g, 1] = centres[b, 1] + positions[b, 1] + ry
             mirror[g, 0] = centres[b, 0] + positions[b, 0] + mx
             mirror[g, 1] = centres[b, 1] + positions[b, 1] + my
-            # the wall's kinematics are taken at the foot point, half-way between ghost and mirror point
-            rx = 0.5 * (rx + mx)
-            ry = 0.5 * (ry + my)
-            velocity[g, 0] = velocities[b, 0] - omega * ry
-            velocity[g, 1] = velocities[b, 1] + omega * rx
-            acceleration[g, 0] = accelerations[b, 0] - alpha * ry - omega * omega * rx
-            acceleration[g, 1] = accelerations[b, 1] + alpha * rx - omega * omega * ry
+            foot[g, 0] = centres[b, 0] + positions[b, 0] + fx
+            foot[g, 1] = centres[b, 1] + positions[b, 1] + fy
+            normal[g, 0], normal[g, 1] = _turned(drawn.normal[g, 0], drawn.normal[g, 1], cos, sin)
+            velocity[g, 0] = velocities[b, 0] - omega * fy
+            velocity[g, 1] = velocities[b, 1] + omega * fx
+            acceleration[g, 0] = accelerations[b, 0] - alpha * fy - omega * omega * fx
+            acceleration[g, 1] = accelerations[b, 1] + alpha * fx - omega * omega * fy
             sxx = drawn_reflection[g, 0, 0]
             sxy = drawn_reflection[g, 0, 1]
             syy = drawn_reflection[g, 1, 1]
@@ -70,18 +71,22 @@ def move_ghosts(  # type: ignore[no-untyped-def]
             for k in range(3):
                 position[g, k] = centres[b, k] + positions[b, k]
                 mirror[g, k] = centres[b, k] + positions[b, k]
+                foot[g, k] = centres[b, k] + positions[b, k]
+                normal[g, k] = 0.0
                 for m in range(3):
-                    position[g, k] += turn[k, m] * (drawn[g, m] - centres[b, m])
-                    mirror[g, k] += turn[k, m] * (drawn_mirror[g, m] - centres[b, m])
+                    position[g, k] += turn[k, m] * (drawn.position[g, m] - centres[b, m])
+                    mirror[g, k] += turn[k, m] * (drawn.mirror[g, m] - centres[b, m])
+                    foot[g, k] += turn[k, m] * (drawn.foot[g, m] - centres[b, m])
+                    normal[g, k] += turn[k, m] * drawn.normal[g, m]
                 for m in range(3):
                     total = 0.0
                     for p in range(3):
                         for q in range(3):
                             total += turn[k, p] * drawn_reflection[g, p, q] * turn[m, q]
                     reflection[g, k, m] = total
-            rx = 0.5 * (position[g, 0] + mirror[g, 0]) - centres[b, 0] - positions[b, 0]
-            ry = 0.5 * (position[g, 1] + mirror[g, 1]) - centres[b, 1] - positions[b, 1]
-            rz = 0.5 * (position[g, 2] + mirror[g, 2]) - centres[b, 2] - positions[b, 2]
+            rx = foot[g, 0] - centres[b, 0] - positions[b, 0]
+            ry = foot[g, 1] - centres[b, 1] - positions[b, 1]
+            rz = foot[g, 2] - centres[b, 2] - positions[b, 2]
             ux, uy, uz = _cross(velocities[b], rx, ry, rz)
             ax, ay, az = _cross(accelerations[b], rx, ry, rz)
             cx, cy, cz = _cross(velocities[b], ux, uy, uz)

@@ -41,10 +41,14 @@ class BoxWalls(WallGroup):
         ghost = np.any(crossed, axis=1)
         position, crossed = position[ghost], crossed[ghost]
         reflection = np.where(crossed[:, :, None], -1.0, 1.0) * np.eye(3)
+        foot = np.clip(position, self._lower, self._upper)
+        offset = position - foot
         nothing = np.zeros_like(position)
         return GhostPoints(
             position,
-            2.0 * np.clip(position, self._lower, self._upper) - position,
+            2.0 * foot - position,
+            foot,
+            offset / np.linalg.norm(offset, axis=1)[:, None],
             reflection,
             volume[ghost],
             np.full(len(position), self._index),

@@ -30,14 +30,17 @@ NONE = -1
 class GhostPoints(NamedTuple):
     """Fixed ghost particles, in m, as drawn (before any body moves).
 
-    ``position`` (g, dim), ``mirror`` (g, dim), ``reflection`` (g, dim, dim) for free slip, ``volume`` (g,) in m^dim,
-    ``wall`` (g,) index of the wall that each belongs to. In a corner between two walls, ``other`` (g,) is the second
-    wall, else ``NONE``. Its part of the force F on the ghost is (F.d) n with its normal n, ``other_normal`` (g, dim),
-    and d, ``other_dual`` (g, dim), which is perpendicular to the normal of the first wall and has d.n = 1.
+    ``position`` (g, dim), ``mirror`` (g, dim); ``foot`` (g, dim) the nearest point of the wall, ``normal`` (g, dim) the
+    unit vector from there to the ghost, out of the fluid; ``reflection`` (g, dim, dim) for free slip, ``volume`` (g,)
+    in m^dim, ``wall`` (g,) index of the wall that each belongs to. In a corner between two walls, ``other`` (g,) is the
+    second wall, else ``NONE``. Its part of the force F on the ghost is (F.d) n with its normal n, ``other_normal``
+    (g, dim), and d, ``other_dual`` (g, dim), which is perpendicular to the normal of the first wall and has d.n = 1.
     """
 
     position: Array
     mirror: Array
+    foot: Array
+    normal: Array
     reflection: Array
     volume: Array
     wall: IntArray
@@ -131,6 +134,8 @@ class PlaneWalls(WallGroup):
         return GhostPoints(
             position,
             self._inside(2.0 * foot - position, spacing),
+            foot,
+            normal,
             reflection,
             volume,
             self._indices[wall],

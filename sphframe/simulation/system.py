@@ -200,7 +200,7 @@ class FluidSystem(System):
         return int(
             put_back(
                 self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts,
-                self.columns, spacing, boundary.mirror, boundary.velocity,
+                self.columns, spacing, boundary.foot, boundary.normal, boundary.velocity,
             )
         )  # fmt: skip
 

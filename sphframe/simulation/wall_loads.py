@@ -37,8 +37,7 @@ class WallLoads:
         self._system, self._panels, self._sample = system, panels, sample
         boundary, index = system.boundary, {wall.name: k for k, wall in enumerate(walls)}
         self._names = list(index)
-        foot = 0.5 * (boundary.position + boundary.mirror)
-        self._ghosts = {part.name: (boundary.wall == index[part.wall]) & _within(foot, part) for part in parts}
+        self._ghosts = {part.name: (boundary.wall == index[part.wall]) & _within(boundary.foot, part) for part in parts}
         own = {name: (k, panels.wall == k) for name, k in index.items()}
         in_parts = {p.name: (index[p.wall], own[p.wall][1] & _within(panels.centre, p)) for p in parts}
         self._surfaces = {**own, **in_parts}

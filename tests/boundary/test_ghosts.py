@@ -6,7 +6,7 @@ import pytest
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.filling import Filling
 from sphframe.equations_of_state.linear import Linear
-from sphframe.geometry import BoxRegion, BoxWall, fill
+from sphframe.geometry import BoxRegion, BoxWall, Polygon, PolygonWall, fill
 from sphframe.interfaces import Motion, RigidBody, Status
 from sphframe.kernels import compiled_kernel
 from sphframe.kernels.gaussian import RenormalisedGaussian
@@ -35,16 +35,20 @@ class Still(RigidBody):
 class Basin:
     """A box of fluid with every side walled but the top, particles jittered."""
 
-    def __init__(self, method, dim=2, *, lift="balanced", slip="free", body=None, jitter=0.2, corrected=True):
+    def __init__(
+        self, method, dim=2, *, lift="balanced", slip="free", body=None, jitter=0.2, corrected=True, wall=None
+    ):
         shape = RenormalisedGaussian()
         self.kernel = compiled_kernel(shape, dim)
         self.dim, self.h = dim, 1.3 * SPACING
         side = 1.2 if dim == 2 else 0.8
-        wall = BoxWall(
-            lower=(0.0,) * dim, upper=(side,) * dim, open_faces=("+y" if dim == 2 else "+z",), body=body and "body"
-        )
-        interpolator = create("interpolators", method)
         region = BoxRegion(lower=(0.0,) * dim, upper=(side,) * dim)
+        if wall is None:
+            open_faces = ("+y" if dim == 2 else "+z",)
+            wall = BoxWall(lower=region.lower, upper=region.upper, open_faces=open_faces, body=body and "body")
+        else:
+            region = Polygon(points=wall.points)
+        interpolator = create("interpolators", method)
         self.boundary = Boundary(
             (wall,),
             {"body": body} if body else {},
@@ -137,6 +141,21 @@ def test_velocities_beside_one_face(method, slip):
     np.testing.assert_allclose(velocity[below, 1], -0.25 + 2.0 * position[below, 1], rtol=1e-9, atol=1e-9)
     tangential = 0.5 + (3.0 * position[below, 1] if slip == "no" else 3.0)
     np.testing.assert_allclose(velocity[below, 0], tangential, rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize("method", ["improved-shepard", "normalized", "mls-linear"])
+def test_velocities_in_an_acute_corner(method):
+    """A velocity that grows linearly from the bed is continued below it, although the mirror points are moved."""
+    basin = Basin(method, body=Still(), wall=PolygonWall(points=((1.2, 0), (0, 0), (1.2, 0.7)), body="body"))
+    c = basin.columns
+    fluid = basin.rows[: basin.n]
+    fluid[:, c.velocity] = np.column_stack([np.full(basin.n, 3.0), 2.0 * fluid[:, 1]])
+    wet, position, velocity, _, _ = basin.fill()
+    moved = np.linalg.norm(position + basin.boundary.mirror - 2.0 * basin.boundary.foot, axis=1) > 1e-6
+    below = wet & (position[:, 1] < 0.0) & (position[:, 0] > 0.0) & (position[:, 0] < 1.0)
+    assert (below & moved).sum() > 2
+    np.testing.assert_allclose(velocity[below, 1], 2.0 * position[below, 1], rtol=1e-9)
+    np.testing.assert_allclose(velocity[below, 0], 3.0, rtol=1e-9)
 
 
 @pytest.mark.parametrize("dim", [2, 3])

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import shapely
 
 from sphframe.bodies import Prescribed
 from sphframe.boundary.boundary import Boundary
@@ -61,6 +62,12 @@ def exact(points, time, dim):
     return (turned + centre + shift)[:, :dim]
 
 
+def nearest(points, outline):
+    """The points of a polyline that are nearest to ``points``."""
+    line = shapely.LineString(outline)
+    return shapely.get_coordinates(line.interpolate(line.project(shapely.points(points))))
+
+
 @pytest.mark.parametrize("dim", [2, 3])
 def test_ghosts_and_mirror_points_move_on_exact_circles(dim):
     boundary, (position, mirror, _) = turning(dim, 0.7)
@@ -72,8 +79,30 @@ def test_ghosts_and_mirror_points_move_on_exact_circles(dim):
 def test_velocity_and_acceleration_are_those_of_the_wall_point(dim):
     time, step = 0.7, 1e-4
     boundary, (position, mirror, _) = turning(dim, time)
-    foot = 0.5 * (position + mirror)
+    foot = nearest(position, OBSTACLE + OBSTACLE[:1]) if dim == 2 else 0.5 * (position + mirror)
     before, now, after = (exact(foot, t, dim) for t in (time - step, time, time + step))
+    np.testing.assert_allclose(boundary.velocity, (after - before) / (2 * step), rtol=1e-6, atol=1e-6)
+    np.testing.assert_allclose(boundary.acceleration, (after - 2 * now + before) / step**2, rtol=1e-5, atol=1e-4)
+
+
+def test_in_an_acute_corner_the_wall_point_of_a_ghost_is_the_nearest_point_of_the_wall():
+    """A wedge of 30 degrees that contains the fluid and turns; the mirror points near its edge are moved inwards."""
+    rise = 2.0 * np.tan(np.pi / 6)
+    wall = PolygonWall(points=((2, 0), (0, 0), (2, rise)), body="body")
+    body = Prescribed(in_the_plane, centre=tuple(CENTRE[:2]))
+    fluid = [Polygon(points=((0, 0), (1.8, 0), (1.8, 0.9 * rise)))]
+    boundary = Boundary(
+        (wall,), {"body": body}, EvaluationPoint.MIRROR, fluid=fluid, spacing=0.1, support=0.3, no_slip=False
+    )
+    position, mirror = boundary.position.copy(), boundary.mirror.copy()
+    foot = nearest(position, wall.points)
+    moved = np.linalg.norm(position + mirror - 2.0 * foot, axis=1) > 1e-6
+    assert moved.sum() > 5
+    time, step = 0.7, 1e-4
+    boundary.move([body.motion(time, *np.zeros((3, 3)))], np.zeros((boundary.count, 9)), np.zeros(2), 1000.0)
+    before, now, after = (exact(foot, t, 2) for t in (time - step, time, time + step))
+    np.testing.assert_allclose(boundary.foot, now, atol=1e-13)
+    np.testing.assert_allclose(boundary.foot + boundary.depth[:, None] * boundary.normal, boundary.position, atol=1e-13)
     np.testing.assert_allclose(boundary.velocity, (after - before) / (2 * step), rtol=1e-6, atol=1e-6)
     np.testing.assert_allclose(boundary.acceleration, (after - 2 * now + before) / step**2, rtol=1e-5, atol=1e-4)
 
