@@ -6,6 +6,8 @@ from sphframe import OK, SINGULAR, TOO_FEW, BoundaryInterpolator, CompiledKernel
 
 _THINNEST = 1e-8
 """smallest pivot, relative to the scale of its degree: the square of the relative thickness of the cloud"""
+_LEAST_SHARE = 0.01
+"""smallest pivot of the constant over sum W_j V_j: the share of the constant that the other terms do not reproduce"""
 
 
 @dataclass(frozen=True)
@@ -43,8 +45,9 @@ class QuadraticMLS(BoundaryInterpolator):
     """Moving least squares of degree two: exact on quadratic fields.
 
     The equation is that of :class:`LinearMLS` with the full quadratic basis of 6 (10) terms in 2-D (3-D). The status is
-    TOO_FEW for fewer than 6 (10) neighbours, and SINGULAR where they lie on one conic (quadric). The fallback is the
-    kernel average.
+    TOO_FEW for fewer than 6 (10) neighbours, and SINGULAR where they lie on one conic (quadric), or so near to one that
+    the terms of first and second degree reproduce the constant but for a hundredth of its square: round-off in the
+    weights is then magnified a hundred times, although they may be small. The fallback is the kernel average.
     """
 
     amplification: float = 3.0
@@ -65,7 +68,7 @@ def _least_squares(degree: int, kernel: CompiledKernel, dim: int, amplification:
     entries = terms * terms
     last = terms - 1
     smoothing_lengths = kernel.support
-    thinnest = _THINNEST
+    thinnest, least_share = _THINNEST, _LEAST_SHARE
 
     def weights(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]
         n = distances.shape[0]
@@ -109,7 +112,7 @@ def _least_squares(degree: int, kernel: CompiledKernel, dim: int, amplification:
             for c in range(a):
                 matrix[a * terms + a] -= matrix[a * terms + c] ** 2 * matrix[c * terms + c]
             scale = linear_scale if a < dim else (quadratic_scale if a < last else constant_scale)
-            if not matrix[a * terms + a] > thinnest * scale:
+            if not matrix[a * terms + a] > (thinnest if a < last else least_share) * scale:
                 return SINGULAR
 
         # with the constant last, M c = e_last needs only back substitution
