@@ -32,6 +32,7 @@ from sphframe.interfaces import Surroundings as Surroundings
 from sphframe.interfaces import System as System
 from sphframe.interfaces import Traits as Traits
 from sphframe.interfaces import WeightsFunction as WeightsFunction
+from sphframe.kernels.polynomial import polynomial_edge_integrals as polynomial_edge_integrals
 from sphframe.output import open_dataset as open_dataset
 from sphframe.registry import available as available
 from sphframe.registry import create as create

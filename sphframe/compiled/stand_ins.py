@@ -7,8 +7,8 @@ for readers and type checkers.
 from typing import Any, NoReturn
 
 from sphframe.interfaces import WeightsFunction
+from sphframe.interfaces.edge_integrals import EdgeFunction, ScalarFunction
 from sphframe.interfaces.equation_of_state import StateFunction
-from sphframe.interfaces.kernel import ScalarFunction
 from sphframe.particles import Columns
 
 
@@ -27,6 +27,8 @@ VALUE: ScalarFunction = _not_bound
 """w(q) of the kernel"""
 GRADIENT: ScalarFunction = _not_bound
 """w'(q)/q of the kernel, as a function of q^2"""
+EDGE_INTEGRALS: EdgeFunction = _not_bound
+"""c, w0, w1 of the kernel over a straight edge, as a function of z, a, b"""
 PRESSURE: StateFunction = _not_bound
 """the equation of state, p(rho, rho0, c0)"""
 DENSITY: StateFunction = _not_bound

@@ -2,10 +2,9 @@
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from typing import ClassVar, NamedTuple
 
-ScalarFunction = Callable[[float], float]
+from sphframe.interfaces.edge_integrals import EdgeFunction, ScalarFunction, edge_quadrature
 
 
 class Kernel(ABC):
@@ -45,6 +44,28 @@ class Kernel(ABC):
 
         return of_square
 
+    def edge_integrals_function(self) -> EdgeFunction:
+        """Return the function (z, a, b) -> (c, w0, w1) of the exact integrals over a straight edge in two dimensions.
+
+        A point at the distance z before the line of an edge (z < 0 behind it) has its foot on the line at s = 0; the
+        edge is a <= s <= b. All lengths are in smoothing lengths. With r^2 = z^2 + s^2 and
+        g(r) = int_r^R w(q) q dq, each integral is over that part of the edge which is nearer than R::
+
+            c  = z int g(r)/r^2 ds     what the solid behind the edge takes away from gamma, the kernel's integral
+            w0 = int w(r) ds           grad gamma = -n w0, n the unit normal out of the fluid
+            w1 = int w(r) s ds         moment along the edge
+
+        times sigma_2, sigma_2/h and sigma_2. So gamma = 1 - sigma_2 sum c for a point in a fluid with straight
+        walls. c jumps by 1/sigma_2 where z changes its sign within the edge; at z = 0 it is 1/2 of that for z = +0.0,
+        the limit from the fluid.
+
+        The default is a quadrature: c and w0 times sigma_2 are within 1e-12 for functions of q^2, within 1e-5 for
+        splines and Wendland's functions. Kernels of polynomials override it by closed integrals.
+
+        Source: Ferrand et al. (2013), doi:10.1002/fld.3666, for Wendland's C2; by the divergence theorem for others.
+        """
+        return edge_quadrature(self.value_function(), self.support)
+
     @abstractmethod
     def normalisation(self, dim: int) -> float:
         """Return sigma_d, such that the integral of W over the support is one, for dim 1, 2 or 3."""
@@ -55,7 +76,8 @@ class CompiledKernel(NamedTuple):
 
     ``value`` and ``gradient`` are compiled functions of q (see :class:`Kernel`), ``gradient_of_square`` is the latter
     as a function of q^2; ``support`` is R/h and ``normalisation`` is sigma_d for the dimension at hand. Inside the
-    weights function h = R / support.
+    weights function h = R / support. ``edge_integrals`` is the function of :meth:`Kernel.edge_integrals_function`, None
+    in 3-D.
     """
 
     value: ScalarFunction
@@ -63,3 +85,4 @@ class CompiledKernel(NamedTuple):
     support: float
     normalisation: float
     gradient_of_square: ScalarFunction
+    edge_integrals: EdgeFunction | None = None

@@ -14,4 +14,5 @@ def compiled_kernel(kernel: Kernel, dim: int) -> CompiledKernel:
         kernel.support,
         kernel.normalisation(dim),
         compile_part(kernel.gradient_of_square_function()),
+        compile_part(kernel.edge_integrals_function()) if dim == 2 else None,
     )

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from sphframe.compiled import fast_exp
 from sphframe.interfaces import Kernel
-from sphframe.interfaces.kernel import ScalarFunction
+from sphframe.interfaces.edge_integrals import EdgeFunction, ScalarFunction, edge_quadrature
 
 _AT_CUT_OFF = math.exp(-9.0)
 
@@ -21,6 +21,11 @@ def _gradient(q: float) -> float:
 
 def _gradient_of_square(s: float) -> float:
     return -2.0 * fast_exp(-s)
+
+
+def _mean(q: float) -> float:
+    s = max(q * q, 1e-300)
+    return 0.5 * ((1.0 - fast_exp(-s)) / s - _AT_CUT_OFF)
 
 
 @dataclass(frozen=True)
@@ -60,6 +65,10 @@ class RenormalisedGaussian(Kernel):
     def gradient_of_square_function(self) -> ScalarFunction:
         """Return w'(q)/q = -2 exp(-s), s = q^2."""
         return _gradient_of_square
+
+    def edge_integrals_function(self) -> EdgeFunction:
+        """Return the integrals over an edge by quadrature, with the closed mean 2 k = (1 - exp(-q^2))/q^2 - exp(-9)."""
+        return edge_quadrature(_value, self.support, _mean)
 
     def normalisation(self, dim: int) -> float:
         """Return sigma_d for dim 1, 2 or 3."""

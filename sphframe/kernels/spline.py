@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from sphframe.interfaces import Kernel
-from sphframe.interfaces.kernel import ScalarFunction
+from sphframe.interfaces.edge_integrals import EdgeFunction, ScalarFunction
+from sphframe.kernels.polynomial import polynomial_edge_integrals
 
 
 def _cubic_value(q: float) -> float:
@@ -77,6 +78,10 @@ class CubicSpline(Kernel):
         """Return w'(q)/q, -3 at q = 0."""
         return _cubic_gradient
 
+    def edge_integrals_function(self) -> EdgeFunction:
+        """Return the integrals over an edge, in closed form, of w = (2 - q)^3/4 - (1 - q)^3."""
+        return polynomial_edge_integrals((2.0, (2.0, -3.0, 3 / 2, -1 / 4)), (1.0, (-1.0, 3.0, -3.0, 1.0)))
+
     def normalisation(self, dim: int) -> float:
         """Return sigma_d for dim 1, 2 or 3."""
         return (2.0 / 3.0, 10.0 / (7.0 * math.pi), 1.0 / math.pi)[dim - 1]
@@ -109,6 +114,14 @@ class QuinticSpline(Kernel):
     def gradient_function(self) -> ScalarFunction:
         """Return w'(q)/q, -120 at q = 0."""
         return _quintic_gradient
+
+    def edge_integrals_function(self) -> EdgeFunction:
+        """Return the integrals over an edge, in closed form, of w = (3 - q)^5 - 6 (2 - q)^5 + 15 (1 - q)^5."""
+        return polynomial_edge_integrals(
+            (3.0, (243.0, -405.0, 270.0, -90.0, 15.0, -1.0)),
+            (2.0, (-192.0, 480.0, -480.0, 240.0, -60.0, 6.0)),
+            (1.0, (15.0, -75.0, 150.0, -150.0, 75.0, -15.0)),
+        )
 
     def normalisation(self, dim: int) -> float:
         """Return sigma_d for dim 1, 2 or 3."""

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from sphframe.interfaces import Kernel
-from sphframe.interfaces.kernel import ScalarFunction
+from sphframe.interfaces.edge_integrals import EdgeFunction, ScalarFunction
+from sphframe.kernels.polynomial import polynomial_edge_integrals
 
 
 def _c2_value(q: float) -> float:
@@ -61,6 +62,10 @@ class WendlandC2(Kernel):
         """Return w'(q)/q = -5 (1 - q/2)^3."""
         return _c2_gradient
 
+    def edge_integrals_function(self) -> EdgeFunction:
+        """Return the integrals over an edge, in closed form."""
+        return polynomial_edge_integrals((2.0, (1.0, 0.0, -5 / 2, 5 / 2, -15 / 16, 1 / 8)))
+
     def normalisation(self, dim: int) -> float:
         """Return sigma_d for dim 1, 2 or 3."""
         return (3.0 / 4.0, 7.0 / (4.0 * math.pi), 21.0 / (16.0 * math.pi))[dim - 1]
@@ -95,6 +100,10 @@ class WendlandC4(Kernel):
     def gradient_function(self) -> ScalarFunction:
         """Return w'(q)/q = -14/3 (1 - q/2)^5 (1 + 5q/2)."""
         return _c4_gradient
+
+    def edge_integrals_function(self) -> EdgeFunction:
+        """Return the integrals over an edge, in closed form."""
+        return polynomial_edge_integrals((2.0, (1.0, 0.0, -7 / 3, 0.0, 35 / 8, -14 / 3, 35 / 16, -1 / 2, 35 / 768)))
 
     def normalisation(self, dim: int) -> float:
         """Return sigma_d for dim 1, 2 or 3."""

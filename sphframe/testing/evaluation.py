@@ -78,6 +78,7 @@ def plain_evaluator(method: BoundaryInterpolator, dim: int, kernel: str = "gauss
         chosen.support,
         chosen.normalisation(dim),
         chosen.gradient_of_square_function(),
+        chosen.edge_integrals_function() if dim == 2 else None,
     )
     weights = method.point_weights(functions, dim)
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from sphframe.arrays import Array
 from sphframe.compiled import compile_part
 from sphframe.interfaces import Kernel
-from sphframe.interfaces.kernel import ScalarFunction
+from sphframe.interfaces.edge_integrals import ScalarFunction, edge_quadrature
 from sphframe.testing.evaluation import title
 from sphframe.testing.proof import require
 
@@ -84,6 +84,21 @@ def check_monotone(kernel: Kernel) -> None:
     require(not len(rises), f"{title(kernel)}: w does not decrease at q = {q[rises[0]] if len(rises) else 0.0:.6g}")
 
 
+def check_edge_integrals(kernel: Kernel) -> None:
+    """The compiled integrals over the edges of walls agree with a quadrature of the value in plain Python."""
+    given = compile_part(kernel.edge_integrals_function())
+    quadrature = edge_quadrature(kernel.value_function(), kernel.support)
+    sigma, reach = kernel.normalisation(2), kernel.support
+    for z, a, b in ((0.0, -1.0, 1.0), (0.1, -1.0, 0.3), (-0.3, 0.2, 0.5), (0.7, -0.6, -0.1), (1.1, 0.0, 1.0)):
+        edge = z * reach, a * reach, b * reach
+        for name, one, other in zip(("c", "w0", "w1"), given(*edge), quadrature(*edge), strict=True):
+            require(
+                abs(sigma * (one - other)) < 1e-4,
+                f"{title(kernel)}: the edge integral {name} at z, a, b = {edge} is {one:.9g}, by quadrature of the"
+                f" value {other:.9g}; correct edge_integrals_function, or leave it out",
+            )
+
+
 def check_compiles(kernel: Kernel) -> None:
     """The compiled functions and plain Python return the same values."""
     for function in (kernel.value_function(), kernel.gradient_function(), kernel.gradient_of_square_function()):
@@ -113,6 +128,7 @@ CHECKS: dict[str, Callable[[Kernel], None]] = {
     "gradient": check_gradient,
     "compact_support": check_compact_support,
     "monotone": check_monotone,
+    "edge_integrals": check_edge_integrals,
     "compiles": check_compiles,
 }
 """the checks of a kernel, by the name of the property"""

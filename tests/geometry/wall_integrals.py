@@ -1,15 +1,11 @@
-"""The exact wall integral of the renormalised Gaussian, independent of the project's kernels and ghosts.
-
-lambda(x) is the integral of W(x - x') over the solid. With g(r) = int_r^R W r' dr' the divergence theorem turns it into
-the sum over the edges of the domain of int g(|z|/cos t) dt, t the angle seen from x and z the distance of the edge.
-"""
-
-import itertools
+"""The integral of the renormalised Gaussian over solids, and how well ghosts stand for it."""
 
 import numpy as np
 import shapely
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(40)
+from sphframe.kernels.gaussian import RenormalisedGaussian
+from sphframe.testing.wall_integrals import wall_integrals
+
 _CUT = np.exp(-9.0)
 _RATIO = 1.3
 
@@ -20,26 +16,11 @@ def gaussian(r, h):
 
 
 def wall_integral(region, points, spacing):
-    """lambda at ``points`` within ``region``, a polygon or several."""
-    h, reach = _RATIO * spacing, 3 * _RATIO * spacing
-    total = np.zeros(len(points))
-    for polygon in shapely.get_parts(shapely.orient_polygons(region)):
-        for ring in shapely.get_rings(polygon):
-            corners = shapely.get_coordinates(ring)
-            for a, b in itertools.pairwise(corners):
-                along = (b - a) / np.hypot(*(b - a))
-                inside = (points - a) @ np.array([-along[1], along[0]])
-                half = np.sqrt(np.maximum(reach**2 - inside**2, 0.0))
-                left, right = np.clip((a - points) @ along, -half, half), np.clip((b - points) @ along, -half, half)
-                seen = (np.abs(inside) < reach) & (right > left) & (np.abs(inside) > 1e-14)
-                z = inside[seen]
-                t0, t1 = np.arctan2(left[seen], np.abs(z)), np.arctan2(right[seen], np.abs(z))
-                t = 0.5 * (t0 + t1)[:, None] + 0.5 * (t1 - t0)[:, None] * _NODES
-                r = np.abs(z)[:, None] / np.cos(t)
-                g = 0.5 * h**2 * (np.exp(-((r / h) ** 2)) - _CUT) - 0.5 * _CUT * (reach**2 - r**2)
-                g = np.where(r < reach, g / (np.pi * h**2 * (1 - 10 * _CUT)), 0.0)
-                total[seen] += np.sign(z) * (g @ _WEIGHTS) * 0.5 * (t1 - t0)
-    return total
+    """The integral of W(x - x') over the solid, 1 - gamma, at ``points`` within ``region``, a polygon or several."""
+    rings = shapely.get_rings(shapely.get_parts(shapely.orient_polygons(region)))
+    corners = [shapely.get_coordinates(ring) for ring in rings]
+    starts, ends = np.vstack([ring[:-1] for ring in corners]), np.vstack([ring[1:] for ring in corners])
+    return 1.0 - wall_integrals(RenormalisedGaussian(), _RATIO * spacing, points, starts, ends).gamma
 
 
 def filling_errors(domain, ghosts, spacing, within=None):

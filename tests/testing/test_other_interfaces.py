@@ -7,7 +7,16 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-from sphframe import EquationOfState, Integrator, Kernel, Motion, RigidBody, available, create
+from sphframe import (
+    EquationOfState,
+    Integrator,
+    Kernel,
+    Motion,
+    RigidBody,
+    available,
+    create,
+    polynomial_edge_integrals,
+)
 from sphframe.testing import BrokenPromiseError, checks_of, parametrize_with_checks
 
 SHIPPED = [
@@ -48,6 +57,13 @@ class Forgetful(Tent):
 
     def gradient_of_square_function(self):
         return self.gradient
+
+
+class Misprinted(Tent):
+    """A kernel whose coefficient of q^3 for the edges of walls has the wrong sign."""
+
+    def edge_integrals_function(self):
+        return polynomial_edge_integrals((2.0, (1.0, 0.0, -5 / 2, -5 / 2, -15 / 16, 1 / 8)))
 
 
 @dataclass
@@ -143,6 +159,7 @@ def test_right_components_pass():
         (Tent(value=lambda q: q * (2.0 - q)), "monotone"),
         (Tent(value=lambda q: 1.0 - q), "monotone"),
         (Tent(value=lambda q: 1.0 if (int(q) + 4) * 4611686018427387904 > 0 else 0.0), "compiles"),
+        (Misprinted(), "edge_integrals"),
         (State(inverse_sign=-1.0), "inverse"),
         (State(offset=1.0), "inverse"),
         (State(stiffness=-1.0), "pressure_rises"),
