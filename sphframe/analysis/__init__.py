@@ -11,6 +11,7 @@ from sphframe.analysis.reference import read_reference_series, references_for
 from sphframe.analysis.scales import pressure_scale, rest_pressure, time_scale
 from sphframe.analysis.series import running_mean, series_error
 from sphframe.analysis.summary import concerns, front_arrival, summary
+from sphframe.analysis.wall_picture import plot_walls
 
 __all__ = [
     "SphAccessor",
@@ -24,6 +25,7 @@ __all__ = [
     "front_arrival",
     "particles_at",
     "plot_run",
+    "plot_walls",
     "pressure_scale",
     "probe_statistics",
     "read_reference_series",

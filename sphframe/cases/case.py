@@ -25,6 +25,9 @@ class Guards(BaseModel):
     """when a density lies outside the band: stop, or count the particles"""
     density_band: tuple[float, float] = (0.5, 1.5)
     """lowest and highest density over the reference density"""
+    filling: Literal["stop", "report"] = "stop"
+    """when fluid and ghosts fill the kernel beside a wall by less than 75 % or more than 125 % at the start: refuse the
+    case, or only report the place, as from 5 % on"""
     fallbacks: Literal["stop", "count"] = "count"
     """when the share of wet ghosts that use the interpolator's fallback exceeds the limit: stop, or only count them"""
     fallback_limit: float = Field(default=0.5, ge=0, le=1)

@@ -273,11 +273,18 @@ def _list(
 def _show(
     name: Annotated[str, typer.Argument(metavar="NAME", help="a case, a case file, an output file, or any component")],
     preset: Preset = None,
+    walls: Annotated[bool, typer.Option("--walls", help="draw a case's walls, ghosts and how they are filled")] = False,
+    output: Annotated[Path | None, typer.Option("--output", "-o", help="picture; by default NAME-walls.png")] = None,
 ) -> None:
-    """Show a case's parameters, units, defaults and presets, or a component's options."""
-    from sphframe.cli.show import show_command
+    """Show a case's parameters, units, defaults and presets, a component's options, or draw a case's walls."""
+    if walls:
+        from sphframe.cli.show_walls import show_walls_command
 
-    show_command(name, preset)
+        show_walls_command(name, preset, output)
+    else:
+        from sphframe.cli.show import show_command
+
+        show_command(name, preset)
 
 
 @app.command("verify")

@@ -1,8 +1,10 @@
 """Simulation: the system at the start of a case: particles on their lattice, ghosts, and the pressure at rest."""
 
+from typing import NamedTuple
+
 import numpy as np
 
-from sphframe.arrays import Array
+from sphframe.arrays import Array, IntArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.filling import Filling
 from sphframe.cases import Case, Scene
@@ -14,6 +16,7 @@ from sphframe.particles import Columns
 from sphframe.physics import LoopParameters, invert_pressure
 from sphframe.simulation.body_contact import FREQUENCY, BodyContacts
 from sphframe.simulation.components import Components
+from sphframe.simulation.filling_check import WallFilling, check_filling, filling_beside_walls
 from sphframe.simulation.light_bodies import check_weights
 from sphframe.simulation.rest_state import pressure_at_depth, still_levels
 from sphframe.simulation.system import FluidSystem
@@ -36,19 +39,23 @@ def loop_parameters(case: Case, scene: Scene, components: Components) -> LoopPar
     )
 
 
-def initial_system(case: Case, scene: Scene, components: Components, parameters: LoopParameters) -> FluidSystem:
-    """Return the system of ``scene`` at time 0, with its neighbour lists built and all rates computed.
+class Drawn(NamedTuple):
+    """Walls and fluid as drawn: ``position`` (n, dim), m, and ``volume`` (n,) of particles of the ``region`` (n,)."""
 
-    Raises
-    ------
-    InputError: when the scene holds no fluid or no wall, or contradicts the case.
-    """
-    dim, spacing = case.dimension, case.particle_spacing
+    boundary: Boundary
+    position: Array
+    volume: Array
+    region: IntArray
+    filling: WallFilling
+
+
+def drawn(case: Case, scene: Scene, components: Components, parameters: LoopParameters) -> Drawn:
+    """Return ghosts and particles of ``scene``, and how they fill the kernel beside the walls."""
+    spacing = case.particle_spacing
     fills = [fill(region, spacing) for region in scene.fluid]
     position = np.vstack([filled.position for filled in fills])
-    volumes = np.concatenate([filled.volume for filled in fills])
-    members = np.repeat(np.arange(len(fills)), [len(filled.volume) for filled in fills])
-    _check_scene(scene, position, dim)
+    volume = np.concatenate([filled.volume for filled in fills])
+    _check_scene(scene, position, case.dimension)
     boundary = Boundary(
         scene.walls,
         scene.bodies,
@@ -58,6 +65,21 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
         support=parameters.support,
         no_slip=case.slip == "no",
     )
+    region = np.repeat(np.arange(len(fills)), [len(filled.volume) for filled in fills])
+    filling = filling_beside_walls(boundary, position, volume, spacing, components, parameters)
+    return Drawn(boundary, position, volume, region, filling)
+
+
+def initial_system(case: Case, scene: Scene, components: Components, parameters: LoopParameters) -> FluidSystem:
+    """Return the system of ``scene`` at time 0, with its neighbour lists built and all rates computed.
+
+    Raises
+    ------
+    InputError: when the scene holds no fluid or no wall, or contradicts the case, or leaves empty space beside walls.
+    """
+    dim, spacing = case.dimension, case.particle_spacing
+    boundary, position, volumes, members, wall_filling = drawn(case, scene, components, parameters)
+    check_filling(wall_filling, scene.walls, refuse=case.guards.filling == "stop")
     filling = Filling(
         components.interpolator,
         components.compiled_kernel,
@@ -78,7 +100,8 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     if scene.initial_pressure is not None:
         pressure = scene.initial_pressure(position)
     else:
-        levels = still_levels(scene, [filled.position for filled in fills], spacing, boundary.groups)
+        parts = [position[members == index] for index in range(len(scene.fluid))]
+        levels = still_levels(scene, parts, spacing, boundary.groups)
         depth = levels[members] - position[:, -1]
         pressure = pressure_at_depth(
             depth, density, parameters.reference_density, parameters.sound_speed, parameters.gravity

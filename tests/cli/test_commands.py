@@ -87,6 +87,12 @@ def test_show_a_case_file_and_a_component(tmp_path: Path) -> None:
     assert "gamma = 7.0" in call("show", "tait").stdout
 
 
+def test_show_the_walls_of_a_case(tmp_path: Path) -> None:
+    picture = tmp_path / "walls.png"
+    assert f"wrote {picture}" in call("show", "hydrostatic-tank", "--walls", "--output", str(picture)).stdout
+    assert picture.stat().st_size > 10_000
+
+
 def test_doctor() -> None:
     result = call("doctor")
     assert "threading layer" in result.stdout
