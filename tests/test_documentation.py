@@ -103,6 +103,15 @@ def test_commands_in_the_docs_are_understood(line: str) -> None:
         load_case(arguments[0], given["preset"], parameters)
 
 
+@pytest.mark.parametrize("path", sorted((DOCS / "shapes").glob("*.toml")), ids=lambda path: path.stem)
+def test_cases_of_the_gallery_of_shapes_can_be_run(path: Path) -> None:
+    load_case(path)
+    assert path.with_suffix(".png").is_file(), "draw it by python docs/shapes/draw.py"
+    page = (DOCS / "gallery_shapes.md").read_text(encoding="utf-8")
+    assert f"shapes/{path.name}" in page
+    assert f"shapes/{path.stem}.png" in page
+
+
 METHODS = [entry.name for entry in available("interpolators") if (ROOT / "plugins" / entry.distribution).is_dir()]
 
 
