@@ -54,7 +54,11 @@ def test_the_first_line_says_what_room_it_is(path: Path):
 def test_plugins_import_public_names_of_sphframe_only(path: Path):
     own = path.relative_to(ROOT / "plugins").parts[1]
     for module, name in imports(path):
-        if module.partition(".")[0].startswith("sphframe") and module.partition(".")[0] != own:
+        if module.partition(".")[0].startswith("sphframe_") and module.partition(".")[0] != own:
+            assert name in importlib.import_module(module).__all__, (
+                f"{path.name} imports {name}, not public in {module}"
+            )
+        elif module.partition(".")[0] == "sphframe":
             assert module in PUBLIC, f"{path.name} imports from {module}; plugins may import from {', '.join(PUBLIC)}"
             assert name in importlib.import_module(module).__all__, (
                 f"{path.name} imports {name} from {module}; plugins may import the names in {module}.__all__ only"

@@ -68,11 +68,11 @@ def test_run(tmp_path: Path) -> None:
     case = {"particle_spacing": 0.03, "until": 0.002, "courant_number": 0.3}
     run = sphframe.run("hydrostatic-tank", output=tmp_path / "tank.nc", threads=1, **case)
     assert repr(run) == (
-        "Run(hydrostatic-tank, improved-shepard with balanced lift, 330 particles of 0.03 m, 2-D, 0.002 s in 1 frames,"
-        f" {tmp_path / 'tank.nc'})"
+        "Run(hydrostatic-tank, improved-shepard interpolation, balanced lift, 330 particles of 0.03 m, 2-D, 0.002 s in"
+        f" 1 frames, {tmp_path / 'tank.nc'})"
     )
     page = run._repr_html_()
-    assert "<td>improved-shepard with balanced lift</td>" in page
+    assert "<td>improved-shepard interpolation, balanced lift</td>" in page
     assert "probe_pressure" in page, "the dataset shows itself below"
     run.dataset.close()
 

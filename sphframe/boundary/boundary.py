@@ -1,20 +1,47 @@
 """Boundary: the ghosts of all walls at the present time."""
 
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from sphframe.arrays import Array
 from sphframe.boundary.corners import Corners, Shares
 from sphframe.boundary.movement import move_ghosts
-from sphframe.geometry import Shape, Wall, ghosts_of, rotation_matrix, wall_groups
+from sphframe.geometry import Shape, Wall, ghosts_of, rotation_matrix, row_of, wall_groups
 from sphframe.interfaces import EvaluationPoint, Motion, RigidBody, Status
 
-_STATE = ("position", "mirror", "foot", "normal", "reflection", "velocity", "acceleration", "driving", "statuses")
+_STATE = (
+    "position", "mirror", "foot", "normal", "reflection", "velocity", "acceleration", "driving", "statuses",
+    "wall_state",
+)  # fmt: skip
+
+
+class WallArrays(NamedTuple):
+    """What compiled loops read of the ghosts, one entry or row of each.
+
+    ``normal`` (g, dim) of the wall, out of the fluid, and ``distance`` (g,) from it, m; ``height`` (g,) of the
+    evaluation point above the wall, m; ``reflection`` (g, dim, dim); ``velocity`` (g, dim) of the wall, m/s; ``force``
+    (g, dim): rho0 (f - a_wall), N/m^3; ``volume`` (g,), m^dim; ``full`` (g,): filling of the evaluation point in the
+    midst of the fluid; ``viscous_velocity`` (g, dim) of the ghosts, m/s; ``state`` (g,) that the treatment advances.
+    """
+
+    normal: Array
+    distance: Array
+    height: Array
+    reflection: Array
+    velocity: Array
+    force: Array
+    volume: Array
+    full: Array
+    viscous_velocity: Array
+    state: Array
 
 
 class Boundary:
     """Fixed ghost particles of ``walls``, carried by ``bodies``; ``fluid`` at the start tells which sides are wet.
+
+    They are in layers that fill the ``support``, or ``row_spacing`` (m) apart on the walls.
 
     Attributes
     ----------
@@ -29,6 +56,8 @@ class Boundary:
     wall: (g,) index of each ghost's wall; ``body`` (g,) index of its body, -1 at rest.
     wall_body: (walls,) index of each wall's body, -1 at rest; ``centres`` (bodies, dim) as drawn, m.
     statuses: (g,) :class:`Status` of the last filling.
+    wall_state: (g,) what the treatment advances; ``full`` (g,) filling of the evaluation point within the fluid.
+    arrays: what compiled loops read of the ghosts.
     """
 
     def __init__(
@@ -41,10 +70,14 @@ class Boundary:
         spacing: float,
         support: float,
         no_slip: bool,
+        row_spacing: float | None = None,
     ) -> None:
         groups = wall_groups(tuple(walls), fluid, spacing)
         self.groups = [group for _, group in groups]
-        drawn = ghosts_of(self.groups, spacing, int(np.ceil(support / spacing - 1e-9)))
+        if row_spacing is None:
+            drawn = ghosts_of(self.groups, spacing, int(np.ceil(support / spacing - 1e-9)))
+        else:
+            drawn = row_of(self.groups, row_spacing, spacing)
         self.dim = drawn.position.shape[1]
         self.bodies = dict(bodies)
         names = list(self.bodies)
@@ -63,7 +96,8 @@ class Boundary:
         self.foot = drawn.foot.copy()
         self.normal = drawn.normal.copy()
         self.reflection = self._drawn_reflection.copy()
-        self.points = self.position if evaluation_point is EvaluationPoint.GHOST else self.mirror
+        at_mirror = evaluation_point in (EvaluationPoint.MIRROR, EvaluationPoint.EXTRAPOLATED)
+        self.points = self.mirror if at_mirror else self.position
         self.lifts = self.position - self.points
         self.depth = np.einsum("gi,gi->g", self.position - self.foot, self.normal)
         height = np.einsum("gi,gi->g", self.foot - self.points, self.normal)
@@ -72,6 +106,11 @@ class Boundary:
         self.acceleration = np.zeros_like(self.position)
         self.driving = np.zeros_like(self.position)
         self.statuses = np.full(self.count, int(Status.DRY), np.int64)
+        self.wall_state, self.full = np.zeros(self.count), np.ones(self.count)
+        self.arrays = WallArrays(
+            self.normal, self.depth, self.height, self.reflection, self.velocity, self.driving, self.volume, self.full,
+            np.zeros_like(self.position), self.wall_state,
+        )  # fmt: skip
 
     @property
     def count(self) -> int:

@@ -1,16 +1,25 @@
 """Boundary: fills the ghosts from the fluid by compiled loops, which need scratch memory."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Literal
 
 from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.conjugate import make_conjugate
 from sphframe.boundary.ghosts import Scratch, fill_ghosts
 from sphframe.compiled import specialise
-from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint
+from sphframe.interfaces import (
+    BoundaryInterpolator,
+    CompiledKernel,
+    EvaluationPoint,
+    Interpolated,
+    WallParts,
+    WallPoint,
+)
 from sphframe.neighbours import NeighbourLists
 from sphframe.physics import LoopParameters
+
+Tension = Literal["none", "bounded", "free"]
 
 
 class Filling:
@@ -18,35 +27,44 @@ class Filling:
 
     Parameters
     ----------
-    interpolator, kernel: the method and the kernel; ``parts`` the compiled parts of the loops, by name.
-    balanced: whether the hydrostatic correction is the balanced one; ``corrected`` whether ghost velocities are
-        corrected, see :mod:`sphframe.boundary.ghosts` and :mod:`sphframe.boundary.conjugate`.
+    interpolator, kernel: the method, None where the treatment needs none, and the kernel.
+    parts: the compiled parts of the loops, by name; ``walls`` the functions of the treatment.
+    velocity_interpolator: another method for the velocities.
+    tension: see :mod:`sphframe.boundary.ghosts`; ``lowest_pressure``, Pa, of bounded tension.
     """
 
     def __init__(
         self,
-        interpolator: BoundaryInterpolator,
+        interpolator: BoundaryInterpolator | None,
         kernel: CompiledKernel,
         parts: Mapping[str, Any],
+        walls: WallParts,
         *,
-        balanced: bool,
-        corrected: bool,
+        velocity_interpolator: BoundaryInterpolator | None = None,
+        tension: Tension = "bounded",
+        lowest_pressure: float = 0.0,
     ) -> None:
         self._dim: int = parts["DIM"]
-        evaluation_point = interpolator.traits.evaluation_point
-        self._fill = specialise(
-            fill_ghosts,
-            {
-                **parts,
-                "BALANCED": balanced or evaluation_point is EvaluationPoint.GHOST,
-                "SCALED": balanced and corrected and evaluation_point is not EvaluationPoint.GHOST,
-                "EXTRAPOLATED": evaluation_point is EvaluationPoint.EXTRAPOLATED,
-                "WEIGHTS": interpolator.point_weights(kernel, self._dim),
-                "FALLBACK": interpolator.fallback_weights(kernel, self._dim),
-            },
-        )
-        conjugate = corrected and not balanced and evaluation_point is EvaluationPoint.MIRROR
-        self._make_conjugate = specialise(make_conjugate, parts) if conjugate else None
+        bound = {
+            **parts,
+            "INTERPOLATES": interpolator is not None,
+            "FADES": tension == "none" and interpolator is not None,
+            "BOUNDED": tension != "free",
+            "LOWEST": lowest_pressure if tension == "bounded" else 0.0,
+            "ASSIGN": walls.assign or _at_rest,
+        }
+        if interpolator is not None:
+            point = interpolator.traits.evaluation_point
+            bound["EXTRAPOLATED"] = point is EvaluationPoint.EXTRAPOLATED
+            bound["DIRECTED"] = point is EvaluationPoint.DIRECTED
+            bound["WEIGHTS"] = interpolator.point_weights(kernel, self._dim)
+            bound["FALLBACK"] = interpolator.fallback_weights(kernel, self._dim)
+        if velocity_interpolator is not None:
+            bound["SEPARATE"] = True
+            bound["VELOCITY_WEIGHTS"] = velocity_interpolator.point_weights(kernel, self._dim)
+            bound["VELOCITY_FALLBACK"] = velocity_interpolator.fallback_weights(kernel, self._dim)
+        self._fill = specialise(fill_ghosts, bound)
+        self._make_conjugate = specialise(make_conjugate, parts) if walls.conjugate else None
         self._scratch = Scratch.of(8, self._dim)
 
     def __call__(self, rows: Array, lists: NeighbourLists, boundary: Boundary, parameters: LoopParameters) -> None:
@@ -55,11 +73,19 @@ class Filling:
             self._scratch = Scratch.of(lists.points.shape[1], self._dim)
         self._fill(
             rows, lists.fluid_count, lists.points, lists.point_counts, boundary.points, boundary.lifts,
-            boundary.normal, boundary.depth, boundary.height, boundary.reflection, boundary.velocity, boundary.driving,
-            parameters, self._scratch, boundary.statuses,
+            boundary.arrays, parameters, self._scratch, boundary.statuses,
         )  # fmt: skip
         if self._make_conjugate is not None:
             self._make_conjugate(
                 rows, lists.fluid_count, lists.points, lists.point_counts, boundary.reflection, boundary.velocity,
                 parameters,
             )  # fmt: skip
+
+
+def _at_rest(
+    fluid: Interpolated, wall: WallPoint, constants: Any, velocity: Array, viscous_velocity: Array
+) -> tuple[float, float]:
+    """Assign the velocity of the wall and no pressure, for treatments that assign nothing."""
+    for d in range(velocity.shape[0]):
+        velocity[d] = wall.velocity[d]
+    return 0.0, 1.0

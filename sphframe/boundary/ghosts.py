@@ -1,32 +1,19 @@
-"""Boundary: fixed ghost particles in three steps: mirror (geometry), interpolate, assign.
+"""Boundary: interpolates the fluid to the ghosts and assigns what the treatment of the walls makes of it.
 
 Each ghost has an evaluation point r, its mirror point x_M or its own position, to which the fluid is interpolated with
-the weights Phi_j of the method. With the driving force rho0 (f - a_wall) of the pressure condition
-dp/dn = rho (f - a_wall).n the ghost is assigned::
+the weights Phi_j of a method; a point without neighbours is DRY. The treatment turns the means of pressure, velocity
+and position into pressure p_G and velocities of the ghost, and into the share of its volume with which it counts. Then
+the tension policy of the case applies (p_0 is the case's ``lowest_pressure``)::
 
-    balanced lift   p_G = sum_j Phi_j [p_j + rho0 (f - a_wall).(x_G - x_j)]
-    mirror lift     p_G = sum_j Phi_j p_j + rho0 (f - a_wall).(x_G - x_M)
-    velocity        u_G = u_wall + [(1 - s)/2 + (1 + s)/2 S] (sum_j Phi_j u_j - u_wall)
+    bounded   p_G := max(p_G, p_0)
+    free      p_G as it is
+    none      V_G := V_G S[(phi - 0.35)/0.3],    p_G := max(p_G, 0),    phi = sum_j V_j W(x_j - r) / phi_0
 
-S is the reflection of the wall for free slip and -1 for no slip: it keeps some components of the relative velocity
-and reverses the others, which vanish at the wall. With the balanced lift and ``ghost_velocity = "corrected"`` the
-reversed components are scaled by s = d / sum_j Phi_j d_j, where d is the distance from the wall along its normal at the
-foot of the ghost. This is exact for a velocity that grows linearly from the wall, for any weights that sum to one. In
-all other cases, and where the method evaluates at the ghost, s = 1; for the correction with the mirror lift see
-:mod:`sphframe.boundary.conjugate`. Negative pressures are clipped to zero. The density follows from the inverse
-equation of state. A point without neighbours is DRY: p_G = 0, u_G = u_wall.
+with the smooth step S(t) = 3 t^2 - 2 t^3 of 0 <= t <= 1. phi_0 is the value of the sum where fluid fills the domain. On
+a level free surface phi = 1/2, whatever the distance from the wall, so that no ghost acts on fluid from above the
+surface. A pair of fluid and ghost then does not attract either: max(p_i + p_G, 0) in the momentum equation.
 
-Reason for s: weights of zeroth order sample the fluid at a larger distance from the wall than that of the mirror point.
-Without s the normal velocity of the ghosts is too large, the divergence at the wall is wrong, and the pressure of the
-first layer drifts (in the tank at rest with the normalised method by 1.5 % of rho g H).
-
-Departs from the paper: its pressure condition lacks the acceleration of the wall. The balanced lift, which is exact on
-a hydrostatic field for any weights that sum to one, and s are additions. Negative pressures are clipped because they
-draw particles of thin jets through the wall (dam break at H/30: three particles; with the clipping none). A method that
-evaluates at the ghost always uses the balanced lift, since the mirror lift over a distance of zero is zero; a method
-that extrapolates uses none.
-
-Source: X. Huang et al. (2019), doi:10.3390/w11051110, section 2.2 and Eqs. 8, 13, 16, 21.
+The density follows from the inverse equation of state.
 """
 
 import math
@@ -38,13 +25,19 @@ from numpy.typing import NDArray
 
 from sphframe.arrays import Array
 from sphframe.compiled import local_array
-from sphframe.compiled.stand_ins import COLUMNS, DENSITY, DIM, FALLBACK, SUPPORT, VALUE, WEIGHTS
+from sphframe.compiled.stand_ins import ASSIGN, COLUMNS, DENSITY, DIM, FALLBACK, SUPPORT, VALUE, WEIGHTS
+from sphframe.interfaces import Interpolated, WallPoint
 from sphframe.interfaces.traits import DRY, OK
 
 # parts bound by specialise()
-BALANCED = True
-SCALED = True
-EXTRAPOLATED = False
+INTERPOLATES = True
+EXTRAPOLATED = DIRECTED = SEPARATE = False
+VELOCITY_WEIGHTS = VELOCITY_FALLBACK = WEIGHTS
+BOUNDED, FADES = True, False
+LOWEST = 0.0
+"""lowest pressure of a ghost where it is BOUNDED, Pa"""
+FADED = 0.35
+"""filling at the evaluation point, over that in the midst of the fluid, at which a ghost that FADES has no share"""
 
 BLOCK = 16
 """number of consecutive ghosts, whose neighbours are mostly the same, that a thread computes in one go"""
@@ -79,20 +72,17 @@ class Scratch(NamedTuple):
 
 
 def fill_ghosts(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, counts, points, lifts, normals, depths, heights, reflections, wall_velocities,
-    driving_forces, parameters, scratch, statuses,
-):  # fmt: skip
+    rows, fluid_count, lists, counts, points, lifts, walls, parameters, scratch, statuses
+):
     """Interpolate to ``points`` (g, dim) and assign the ghosts, rows ``fluid_count`` .. ``fluid_count + g``.
 
-    ``lifts`` (g, dim): from evaluation point to ghost, m; ``normals`` (g, dim), ``depths`` (g,), ``heights`` (g,),
-    ``reflections`` (g, dim, dim), ``wall_velocities`` (g, dim): see :class:`~sphframe.boundary.boundary.Boundary`;
-    ``driving_forces`` (g, dim): rho0 (f - a_wall), N/m^3; ``parameters`` are :class:`LoopParameters`, ``scratch`` is a
-    :class:`Scratch`. ``statuses`` (g,) is written.
+    ``lifts`` (g, dim): from evaluation point to ghost, m; ``walls``: :class:`WallArrays`; ``parameters`` are
+    :class:`LoopParameters`, ``scratch`` is a :class:`Scratch`. ``statuses`` (g,) is written.
     """
     support = parameters.support
     limit = support * support
     per_h = SUPPORT / support
-    ghosts = points.shape[0]
+    ghosts = statuses.shape[0]
     chunks = scratch.offsets.shape[0]
     blocks = -(-ghosts // BLOCK)
     for chunk in numba.prange(chunks):
@@ -105,48 +95,54 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
         lift = scratch.lift[chunk]
         mean_offset = local_array(DIM)
         mean_velocity = local_array(DIM)
+        velocity_offset = local_array(DIM)
         for block in range(chunk, blocks, chunks):  # wet ghosts are consecutive: each chunk gets some
             for g in range(block * BLOCK, min((block + 1) * BLOCK, ghosts)):
-                px = points[g, 0]
-                py = points[g, 1]
-                pz = points[g, COLUMNS.z]
+                status = OK
                 n = 0
-                for k in range(counts[g]):
-                    j = lists[g, k]
-                    dx = rows[j, 0] - px
-                    dy = rows[j, 1] - py
-                    r2 = dx * dx + dy * dy
-                    if DIM == 3:
-                        dz = rows[j, 2] - pz
-                        r2 += dz * dz
-                    offsets[n, 0] = dx
-                    offsets[n, 1] = dy
-                    if DIM == 3:
-                        offsets[n, 2] = dz
-                    distances[n] = r2
-                    volumes[n] = rows[j, COLUMNS.volume]
-                    members[n] = j
-                    n += 1 if r2 < limit else 0  # else it is overwritten: faster than a branch
-                for k in range(n):
-                    distances[k] = math.sqrt(distances[k])
-                    values[k] = parameters.kernel_scale * VALUE(distances[k] * per_h)
-
-                status = DRY
                 extrapolated = 0.0
-                if n > 0:
-                    for d in range(DIM):
-                        lift[d] = lifts[g, d] if EXTRAPOLATED else 0.0
-                    status = WEIGHTS(
-                        offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n]
-                    )  # fmt: skip
-                    if status != OK:
-                        FALLBACK(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
-                    elif EXTRAPOLATED:
-                        for k in range(n):
-                            extrapolated += weights[k] * rows[members[k], COLUMNS.pressure]
+                if INTERPOLATES:
+                    status = DRY
+                    px = points[g, 0]
+                    py = points[g, 1]
+                    pz = points[g, COLUMNS.z]
+                    for k in range(counts[g]):
+                        j = lists[g, k]
+                        dx = rows[j, 0] - px
+                        dy = rows[j, 1] - py
+                        r2 = dx * dx + dy * dy
+                        if DIM == 3:
+                            dz = rows[j, 2] - pz
+                            r2 += dz * dz
+                        offsets[n, 0] = dx
+                        offsets[n, 1] = dy
+                        if DIM == 3:
+                            offsets[n, 2] = dz
+                        distances[n] = r2
+                        volumes[n] = rows[j, COLUMNS.volume]
+                        members[n] = j
+                        n += 1 if r2 < limit else 0  # else it is overwritten: faster than a branch
+                    for k in range(n):
+                        distances[k] = math.sqrt(distances[k])
+                        values[k] = parameters.kernel_scale * VALUE(distances[k] * per_h)
+                    if n > 0:
                         for d in range(DIM):
                             lift[d] = 0.0
-                        WEIGHTS(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
+                            if EXTRAPOLATED:
+                                lift[d] = lifts[g, d]
+                            if DIRECTED:
+                                lift[d] = walls.normal[g, d]
+                        status = WEIGHTS(
+                            offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n]
+                        )  # fmt: skip
+                        if status != OK:
+                            FALLBACK(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
+                        elif EXTRAPOLATED:
+                            for k in range(n):
+                                extrapolated += weights[k] * rows[members[k], COLUMNS.pressure]
+                            for d in range(DIM):
+                                lift[d] = 0.0
+                            WEIGHTS(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
                 statuses[g] = status
 
                 total = 0.0
@@ -161,30 +157,41 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                     for d in range(DIM):
                         mean_offset[d] += weights[k] * offsets[k, d]
                         mean_velocity[d] += weights[k] * rows[j, COLUMNS.u + d]
-                if EXTRAPOLATED and status == OK:
+                if SEPARATE and n > 0:
+                    for d in range(DIM):
+                        lift[d] = walls.normal[g, d] if DIRECTED else 0.0
+                        mean_velocity[d] = 0.0
+                        velocity_offset[d] = 0.0
+                    around = offsets[:n], distances[:n], values[:n], volumes[:n]
+                    if VELOCITY_WEIGHTS(*around, support, lift, weights[:n]) != OK:
+                        VELOCITY_FALLBACK(*around, support, lift, weights[:n])
+                    for k in range(n):
+                        for d in range(DIM):
+                            velocity_offset[d] += weights[k] * offsets[k, d]
+                            mean_velocity[d] += weights[k] * rows[members[k], COLUMNS.u + d]
+                else:
+                    for d in range(DIM):
+                        velocity_offset[d] = mean_offset[d]
+                at_ghost = EXTRAPOLATED and n > 0 and status == OK
+                if at_ghost:
                     pressure = extrapolated
-                elif BALANCED:
-                    for d in range(DIM):
-                        pressure += driving_forces[g, d] * (total * lifts[g, d] - mean_offset[d])
-                elif n > 0:
-                    for d in range(DIM):
-                        pressure += driving_forces[g, d] * lifts[g, d]
-                pressure = max(pressure, 0.0)
-
-                slope = 1.0  # s of the module's docstring; d_j is the height of r less (x_j - r).n
-                if SCALED and n > 0:
-                    distance = total * heights[g]
-                    for d in range(DIM):
-                        distance -= mean_offset[d] * normals[g, d]
-                    slope = depths[g] / max(distance, 0.5 * heights[g])
 
                 row = fluid_count + g
-                for d in range(DIM):
-                    rows[row, COLUMNS.u + d] = wall_velocities[g, d]
-                for e in range(DIM if n > 0 else 0):
-                    relative = mean_velocity[e] - wall_velocities[g, e]
-                    rows[row, COLUMNS.u + e] += 0.5 * (1.0 - slope) * relative
-                    for d in range(DIM):
-                        rows[row, COLUMNS.u + d] += 0.5 * (1.0 + slope) * reflections[g, d, e] * relative
+                fluid = Interpolated(status, n, total, pressure, at_ghost, mean_offset, mean_velocity, velocity_offset)
+                wall = WallPoint(
+                    walls.normal[g], walls.distance[g], walls.height[g], lifts[g], walls.reflection[g],
+                    walls.velocity[g], walls.force[g], walls.state[g],
+                )  # fmt: skip
+                velocity = rows[row, COLUMNS.u : COLUMNS.u + DIM]
+                pressure, share = ASSIGN(fluid, wall, parameters, velocity, walls.viscous_velocity[g])
+                if FADES:
+                    filling = 0.0
+                    for k in range(n):
+                        filling += values[k] * volumes[k]
+                    part = min(max((filling / walls.full[g] - FADED) / (1.0 - 2.0 * FADED), 0.0), 1.0)
+                    share *= part * part * (3.0 - 2.0 * part)
+                if BOUNDED:
+                    pressure = max(pressure, LOWEST)
+                rows[row, COLUMNS.volume] = share * walls.volume[g]
                 rows[row, COLUMNS.density] = DENSITY(pressure, parameters.reference_density, parameters.sound_speed)
                 rows[row, COLUMNS.pressure] = pressure

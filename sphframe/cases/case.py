@@ -76,6 +76,13 @@ class Case(BaseModel, ABC):
     ghost_velocity: Literal["corrected", "interpolated"] = quantity(
         "corrected", "1", "velocity of the ghosts: corrected so that walls do no spurious work, or as interpolated"
     )
+    wall_treatment: Component = quantity(Component(name="fixed-ghosts"), "1", "how walls act on the fluid")
+    tension: Literal["none", "bounded", "free"] = quantity(
+        "bounded",
+        "1",
+        "whether walls hold fluid by negative pressure: not at all, down to a lowest pressure, or freely",
+    )
+    lowest_pressure: float = quantity(0.0, "Pa", 'lowest pressure at walls with tension = "bounded"', le=0)
     interpolator: Component = quantity(Component(name="improved-shepard"), "1", "boundary interpolation method")
     kernel: Component = quantity(Component(name="gaussian"), "1", "smoothing kernel")
     equation_of_state: Component = quantity(Component(name="linear"), "1", "equation of state")
@@ -118,6 +125,13 @@ class Case(BaseModel, ABC):
         """Return c0 in m/s: ``sound_speed``, or 20 sqrt(g H) for a still water ``depth`` H in m where it is None."""
         return self.sound_speed or 20.0 * math.sqrt(max(self.gravity, 1e-12) * depth)
 
+    @property
+    def wall_method(self) -> str:
+        """How walls are treated, in words."""
+        if self.wall_treatment.name == "fixed-ghosts":
+            return f"{self.interpolator.name} interpolation, {self.hydrostatic_lift} lift"
+        return f"{self.wall_treatment.name} walls"
+
     def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
         """Show the parameters that were given; all others have their defaults."""
         for name, value in super().__repr_args__():
@@ -126,7 +140,14 @@ class Case(BaseModel, ABC):
                 yield name, given or value
 
     def _repr_html_(self) -> str:
-        important = {"interpolator", "hydrostatic_lift", "particle_spacing", "until", *self.model_fields_set}
+        important = {
+            "wall_treatment",
+            "interpolator",
+            "hydrostatic_lift",
+            "particle_spacing",
+            "until",
+            *self.model_fields_set,
+        }
         important |= type(self).model_fields.keys() - Case.model_fields.keys()
         every = parameters_of(self)
         title = f"{type(self).__name__}: {self.title}"

@@ -104,7 +104,7 @@ def _stem(source: str) -> str:
 
 def _described(case: Case) -> str:
     return (
-        f"{case.interpolator.name} interpolation, {case.hydrostatic_lift} lift, particle spacing"
+        f"{case.wall_method}, particle spacing"
         f" {case.particle_spacing:g} m, {case.dimension}-D, until {case.until:.4g} s"
     )
 

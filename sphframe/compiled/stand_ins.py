@@ -6,7 +6,7 @@ for readers and type checkers.
 
 from typing import Any, NoReturn
 
-from sphframe.interfaces import WeightsFunction
+from sphframe.interfaces import AssignFunction, ForceFunction, RateFunction, SeenFunction, WeightsFunction
 from sphframe.interfaces.edge_integrals import EdgeFunction, ScalarFunction
 from sphframe.interfaces.equation_of_state import StateFunction
 from sphframe.particles import Columns
@@ -37,3 +37,11 @@ WEIGHTS: WeightsFunction = _not_bound
 """weights of the interpolation method at one evaluation point"""
 FALLBACK: WeightsFunction = _not_bound
 """weights used where the method has none"""
+ASSIGN: AssignFunction = _not_bound
+"""what the treatment assigns to a wall particle"""
+SEEN: SeenFunction = _not_bound
+"""what a fluid particle sees of a wall particle"""
+FORCE: ForceFunction = _not_bound
+"""acceleration of a fluid particle by a wall particle"""
+RATE: RateFunction = _not_bound
+"""rate of the state of a wall particle"""

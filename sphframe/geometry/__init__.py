@@ -12,7 +12,7 @@ from sphframe.geometry.frames import (
     turning_velocities,
 )
 from sphframe.geometry.ghosts import GhostPoints, Panels, WallGroup
-from sphframe.geometry.groups import ghosts_of, panels_of, wall_groups
+from sphframe.geometry.groups import ghosts_of, panels_of, row_of, wall_groups
 from sphframe.geometry.regions import (
     BoxRegion,
     CircleRegion,
@@ -91,6 +91,7 @@ __all__ = [
     "moments",
     "panels_of",
     "rotation_matrix",
+    "row_of",
     "sampled",
     "solid_of",
     "solid_within",

@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 
 from sphframe.geometry.box_walls import BoxWalls
-from sphframe.geometry.ghosts import GhostPoints, Panels, PlaneWalls, WallGroup
+from sphframe.geometry.ghosts import NONE, GhostPoints, Panels, PlaneWalls, WallGroup
 from sphframe.geometry.shapes import CHORD, Shape
 from sphframe.geometry.walls import BoxWall, Wall
 
@@ -44,3 +44,16 @@ def panels_of(groups: Sequence[WallGroup], spacing: float) -> Panels:
     """Return the panels of all ``groups``; see :meth:`WallGroup.panels`."""
     parts = [group.panels(spacing) for group in groups]
     return Panels(*map(np.concatenate, zip(*parts, strict=True)))
+
+
+def row_of(groups: Sequence[WallGroup], distance: float, spacing: float) -> GhostPoints:
+    """Return wall particles in one row on the walls, ``distance`` (m) apart, with volumes ``spacing`` (m) deep."""
+    centre, area, wall = panels_of(groups, distance)
+    size = np.linalg.norm(area, axis=1)
+    normal = area / size[:, None]
+    reflection = np.eye(centre.shape[1]) - 2.0 * normal[:, :, None] * normal[:, None, :]
+    nothing = np.zeros_like(centre)
+    none = np.full(len(wall), NONE)
+    return GhostPoints(
+        centre, centre, centre, normal, reflection, size * spacing, wall, none, nothing, nothing
+    )  # fmt: skip

@@ -47,6 +47,8 @@ class EvaluationPoint(enum.StrEnum):
     """at the ghost particle itself (Adami et al. 2012)"""
     EXTRAPOLATED = "extrapolated"
     """at the mirror point, extrapolated along ``lift`` to the ghost by the weights themselves (mDBC)"""
+    DIRECTED = "directed"
+    """at the ghost particle itself; ``lift`` is the wall's unit normal there, out of the fluid (Hashemi et al. 2012)"""
 
 
 @dataclass(frozen=True, kw_only=True)

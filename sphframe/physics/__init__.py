@@ -5,5 +5,16 @@ from sphframe.physics.pressure import invert_pressure, update_pressure
 from sphframe.physics.rates import fluid_sums
 from sphframe.physics.sampling import sample_points
 from sphframe.physics.wall_force import wall_reaction
+from sphframe.physics.wall_pair import make_seen
+from sphframe.physics.wall_sums import wall_sums
 
-__all__ = ["LoopParameters", "fluid_sums", "invert_pressure", "sample_points", "update_pressure", "wall_reaction"]
+__all__ = [
+    "LoopParameters",
+    "fluid_sums",
+    "invert_pressure",
+    "make_seen",
+    "sample_points",
+    "update_pressure",
+    "wall_reaction",
+    "wall_sums",
+]

@@ -16,6 +16,7 @@ class LoopParameters(NamedTuple):
     gravity: g, m/s^2, downwards along the last axis.
     diffusion: delta h c0, m^2/s, factor of the density diffusion.
     viscosity: alpha h c0 rho0, Pa s, factor of the artificial viscosity.
+    spacing: particle spacing dx, m; ``depth``: greatest depth of still water, m.
     """
 
     smoothing_length: float
@@ -27,6 +28,8 @@ class LoopParameters(NamedTuple):
     gravity: float
     diffusion: float
     viscosity: float
+    spacing: float
+    depth: float
 
     @classmethod
     def of(
@@ -40,6 +43,8 @@ class LoopParameters(NamedTuple):
         gravity: float = 0.0,
         density_diffusion: float = 0.0,
         artificial_viscosity: float = 0.0,
+        spacing: float = 0.0,
+        depth: float = 0.0,
     ) -> "LoopParameters":
         """Return the constants for the dimensionless ``density_diffusion`` delta and ``artificial_viscosity`` alpha."""
         return cls(
@@ -52,4 +57,6 @@ class LoopParameters(NamedTuple):
             gravity=float(gravity),
             diffusion=float(density_diffusion * smoothing_length * sound_speed),
             viscosity=float(artificial_viscosity * smoothing_length * sound_speed * reference_density),
+            spacing=float(spacing),
+            depth=float(depth),
         )

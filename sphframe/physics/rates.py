@@ -14,6 +14,8 @@ from sphframe.physics.momentum import pair_stress
 
 # parts bound by specialise()
 CONTINUITY = True
+KINDS = 2
+"""1: sums over the fluid alone; 2: ghosts are seen as they were assigned"""
 
 
 def fluid_sums(  # type: ignore[no-untyped-def]
@@ -62,7 +64,7 @@ def fluid_sums(  # type: ignore[no-untyped-def]
             fx[a] = fy[a] = fz[a] = 0.0
             bx[a] = by[a] = bz[a] = 0.0
             xx[a] = xy[a] = yy[a] = xz[a] = yz[a] = zz[a] = 0.0
-        for kind in range(2):
+        for kind in range(KINDS):
             for k in range(0 if kind == 0 else fluid, fluid if kind == 0 else both):
                 j = lists[c, k]
                 xj = rows[j, 0]

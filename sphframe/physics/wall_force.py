@@ -4,9 +4,10 @@
 
     F = -sum_i V_i sum_(g in wall) [-(p_i + p_g) + alpha h c0 rho0 pi_ig] grad_i W_ig V_g,    i in fluid
 
-and its moment about the centre of the wall's body. In the corner between two walls each bears its part of the
-force on a ghost (see :mod:`sphframe.boundary.corners`). Particles are summed in a
-fixed number of chunks, and the chunks in their order, so the result has the same bits on any number of threads.
+with p_g and the velocity in pi_ig as the particle i sees them (:mod:`sphframe.physics.wall_sums`), or minus the sum of
+the forces that a treatment gives, and its moment about the centre of the wall's body. In the corner between two walls
+each bears its part of the force on a ghost (see :mod:`sphframe.boundary.corners`). Particles are summed in a fixed
+number of chunks, and the chunks in their order, so the result has the same bits on any number of threads.
 
 Departs from the paper: its Eq. 29 takes a pressure difference, which is zero on a hydrostatic wall.
 """
@@ -14,8 +15,16 @@ Departs from the paper: its Eq. 29 takes a pressure difference, which is zero on
 import numba
 
 from sphframe.compiled import LANES
-from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, SUPPORT
+from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, SEEN, SUPPORT
+from sphframe.interfaces import FluidSide, Separation
 from sphframe.physics.momentum import pair_stress
+from sphframe.physics.wall_pair import wall_side
+
+# parts bound by specialise()
+AS_ASSIGNED = True
+"""whether ghosts are seen as they were assigned"""
+FORCES = False
+"""whether the treatment gives the force"""
 
 
 @numba.njit(inline="always")
@@ -36,7 +45,8 @@ def add_load(load, row, centre, fx, fy, fz):  # type: ignore[no-untyped-def]
 
 
 def wall_reaction(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, fluid_counts, ghost_counts, ghost_walls, shares, centres, parameters, partial, loads,
+    rows, fluid_count, lists, fluid_counts, ghost_counts, ghost_walls, shares, centres, walls, parameters, partial,
+    loads,
 ):  # fmt: skip
     """Write force and moment of each wall to ``loads``: (walls, 3) in 2-D, per metre; (walls, 6) in 3-D; N and N m.
 
@@ -56,22 +66,38 @@ def wall_reaction(  # type: ignore[no-untyped-def]
                 dy = rows[j, 1] - rows[i, 1]
                 dz = 0.0
                 r2 = dx * dx + dy * dy
-                du = rows[j, COLUMNS.u] - rows[i, COLUMNS.u]
-                dv = rows[j, COLUMNS.v] - rows[i, COLUMNS.v]
-                approach = du * dx + dv * dy
                 if DIM == 3:
                     dz = rows[j, 2] - rows[i, 2]
                     r2 += dz * dz
-                    approach += (rows[j, COLUMNS.w] - rows[i, COLUMNS.w]) * dz
                 if r2 < limit:
-                    weight = parameters.gradient_scale * GRADIENT(r2 * per_h2)
-                    weight *= rows[i, COLUMNS.volume] * rows[j, COLUMNS.volume]
-                    pressures = rows[i, COLUMNS.pressure] + rows[j, COLUMNS.pressure]
-                    stress = weight * pair_stress(pressures, parameters.viscosity, approach, r2)
-                    fx = stress * dx
-                    fy = stress * dy
-                    fz = stress * dz if DIM == 3 else 0.0
                     g = j - fluid_count
+                    pressures = rows[i, COLUMNS.pressure] + rows[j, COLUMNS.pressure]
+                    u, v, w = rows[j, COLUMNS.u], rows[j, COLUMNS.v], rows[j, COLUMNS.w]
+                    if not AS_ASSIGNED:
+                        separation = Separation(dx, dy, dz, r2)
+                        wall = wall_side(rows, j, walls, g, COLUMNS)
+                    if FORCES:
+                        mass = rows[i, COLUMNS.mass]
+                        ax, ay, az = FORCE(wall, separation, parameters)
+                        fx, fy, fz = -mass * ax, -mass * ay, -mass * az
+                    else:
+                        if not AS_ASSIGNED:
+                            fluid = FluidSide(
+                                rows[i, COLUMNS.pressure], rows[i, COLUMNS.density], rows[i, COLUMNS.u],
+                                rows[i, COLUMNS.v], rows[i, COLUMNS.w] if DIM == 3 else 0.0,
+                            )  # fmt: skip
+                            seen = SEEN(fluid, wall, separation, parameters)
+                            pressures = seen.pressure_sum
+                            u, v, w = seen.viscous_u, seen.viscous_v, seen.viscous_w
+                        approach = (u - rows[i, COLUMNS.u]) * dx + (v - rows[i, COLUMNS.v]) * dy
+                        if DIM == 3:
+                            approach += (w - rows[i, COLUMNS.w]) * dz
+                        weight = parameters.gradient_scale * GRADIENT(r2 * per_h2)
+                        weight *= rows[i, COLUMNS.volume] * rows[j, COLUMNS.volume]
+                        stress = weight * pair_stress(pressures, parameters.viscosity, approach, r2)
+                        fx = stress * dx
+                        fy = stress * dy
+                        fz = stress * dz if DIM == 3 else 0.0
                     other = shares.wall[g]
                     if other >= 0:
                         along = fx * shares.dual[g, 0] + fy * shares.dual[g, 1]

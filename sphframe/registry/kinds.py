@@ -7,6 +7,7 @@ OLDEST_API_VERSION = (1, 0)
 
 LABELS = {
     "interpolators": "interpolator",
+    "wall_treatments": "wall treatment",
     "kernels": "kernel",
     "equations_of_state": "equation of state",
     "integrators": "integrator",
@@ -18,6 +19,7 @@ LABELS = {
 """the kinds of components, each with its name in the singular for messages"""
 INTERFACES = {
     "interpolators": "sphframe.BoundaryInterpolator",
+    "wall_treatments": "sphframe.WallTreatment",
     "kernels": "sphframe.Kernel",
     "equations_of_state": "sphframe.EquationOfState",
     "integrators": "sphframe.Integrator",
@@ -30,6 +32,7 @@ KINDS = tuple(LABELS)
 """the kinds of components; kind K is entry-point group ``sphframe.K``"""
 COMPONENT_KINDS = {
     "interpolator": "interpolators",
+    "wall_treatment": "wall_treatments",
     "kernel": "kernels",
     "equation_of_state": "equations_of_state",
     "integrator": "integrators",
@@ -45,6 +48,13 @@ DISTRIBUTIONS = {
     ("interpolators", "mls-quadratic"): "sphframe-mls",
     ("interpolators", "mdbc"): "sphframe-mdbc",
     ("interpolators", "adami"): "sphframe-adami",
+    ("wall_treatments", "adami-2012"): "sphframe-adami",
+    ("wall_treatments", "hashemi-2012"): "sphframe-hashemi",
+    ("wall_treatments", "band-2018"): "sphframe-band",
+    ("wall_treatments", "pair-mirror"): "sphframe-pair-mirror",
+    ("wall_treatments", "distance-ratio"): "sphframe-distance-ratio",
+    ("wall_treatments", "mdbc-2022"): "sphframe-mdbc",
+    ("wall_treatments", "mdbc-2025"): "sphframe-mdbc",
     ("rigid_bodies", "solitary-wave-paddle"): "sphframe-waves",
     ("rigid_bodies", "regular-wave-paddle"): "sphframe-waves",
     ("cases", "solitary-wave-fixed-wall"): "sphframe-waves",

@@ -5,7 +5,16 @@ from typing import Any
 
 from sphframe.cases import Case
 from sphframe.compiled import compile_part
-from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EquationOfState, Integrator, Kernel
+from sphframe.interfaces import (
+    BoundaryInterpolator,
+    CompiledKernel,
+    EquationOfState,
+    Integrator,
+    Kernel,
+    WallContext,
+    WallParts,
+    WallTreatment,
+)
 from sphframe.kernels import compiled_kernel
 from sphframe.particles import Columns
 from sphframe.registry import COMPONENT_KINDS
@@ -17,15 +26,21 @@ class Components:
 
     Attributes
     ----------
+    interpolator: the one that the treatment uses; None if it uses none. ``velocity_interpolator``: another one for
+        velocities.
     compiled_kernel: the kernel's compiled functions and constants in the case's dimension.
+    walls: the functions of the treatment of walls.
     parts: what the compiled loops are specialised with, by the name that the loops use.
     """
 
-    interpolator: BoundaryInterpolator
+    interpolator: BoundaryInterpolator | None
+    velocity_interpolator: BoundaryInterpolator | None
+    wall_treatment: WallTreatment
     kernel: Kernel
     equation_of_state: EquationOfState
     integrator: Integrator
     compiled_kernel: CompiledKernel
+    walls: WallParts
     parts: dict[str, Any]
 
     @classmethod
@@ -40,7 +55,20 @@ class Components:
         chosen = {field: getattr(case, field).create(kind) for field, kind in COMPONENT_KINDS.items()}
         kernel = compiled_kernel(chosen["kernel"], case.dimension)
         parts = loop_parts(kernel, chosen["equation_of_state"], case.dimension)
-        return cls(**chosen, compiled_kernel=kernel, parts=parts)
+        treatment: WallTreatment = chosen["wall_treatment"]
+        velocity_interpolator = treatment.velocity_interpolator(chosen["interpolator"])
+        chosen["interpolator"] = treatment.interpolator(chosen["interpolator"])
+        context = WallContext(
+            kernel=kernel,
+            dim=case.dimension,
+            interpolator=chosen["interpolator"],
+            no_slip=case.slip == "no",
+            balanced_lift=case.hydrostatic_lift == "balanced",
+            corrected_velocity=case.ghost_velocity == "corrected",
+            velocity_interpolator=velocity_interpolator,
+        )
+        chosen["velocity_interpolator"] = velocity_interpolator
+        return cls(**chosen, compiled_kernel=kernel, walls=treatment.parts(context), parts=parts)
 
 
 def loop_parts(kernel: CompiledKernel, equation_of_state: EquationOfState, dim: int) -> dict[str, Any]:

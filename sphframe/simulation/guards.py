@@ -16,7 +16,7 @@ from sphframe.boundary.operator import operator
 from sphframe.cases import Case
 from sphframe.errors import SimulationError
 from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint, Kernel, Status
-from sphframe.registry import find
+from sphframe.registry import Entry, find
 from sphframe.simulation.system import FluidSystem
 
 COLLAPSED = 0.02
@@ -123,11 +123,17 @@ def _check_ghosts(system: FluidSystem, case: Case) -> None:
         row, columns = system.rows[system.fluid_count + g], system.columns
         raise SimulationError(
             f"ghost {g} got pressure {row[columns.pressure]:g} Pa, velocity {row[columns.velocity]} m/s and status"
-            f" {boundary.statuses[g]} from {find('interpolators', case.interpolator.name).label}; likely"
-            f" causes: weights that are not finite (sphframe verify {case.interpolator.name}), or"
+            f" {boundary.statuses[g]} from {_method(case).label}; likely"
+            f" causes: weights that are not finite (sphframe verify {_method(case).name}), or"
             f" {_STEP_IS_TOO_LONG}",
             place=tuple(float(x) for x in boundary.position[g]),
         )
+
+
+def _method(case: Case) -> Entry:
+    """Return the interpolator of the case, or its treatment of walls if that is another one than fixed ghosts."""
+    own = case.wall_treatment.name == "fixed-ghosts"
+    return find("interpolators", case.interpolator.name) if own else find("wall_treatments", case.wall_treatment.name)
 
 
 def _check_fallbacks(boundary: Boundary, case: Case) -> None:
@@ -137,7 +143,7 @@ def _check_fallbacks(boundary: Boundary, case: Case) -> None:
     if share > case.guards.fallback_limit:
         g = int(np.argmax(fallen))
         raise SimulationError(
-            f"{100 * share:.3g} % of the wet ghosts use the fallback of interpolator {case.interpolator.name!r}, above"
+            f"{100 * share:.3g} % of the wet ghosts use the fallback of {_method(case).title}, above"
             f" guards.fallback_limit = {case.guards.fallback_limit:g}; likely causes: the flow has broken up into"
             " spray, or the method needs more neighbours than there are: refine particle_spacing, choose a method of"
             ' lower order, or set guards.fallbacks = "count"',
@@ -155,7 +161,7 @@ def check_time_step(step: float, at_rest: float, speed: float) -> None:
         )
 
 
-def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator, kernel: Kernel, case: Case) -> None:
+def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator | None, kernel: Kernel, case: Case) -> None:
     """Check at the present ghosts that the weights have the properties that the method's traits declare.
 
     Raises
@@ -163,6 +169,8 @@ def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator, kernel
     SimulationError: when they are not finite, negative in spite of ``non_negative``, or do not add up to one in spite
         of ``partition_of_unity``.
     """
+    if interpolator is None:
+        return
     boundary, columns, n = system.boundary, system.columns, system.fluid_count
     traits, fluid = interpolator.traits, system.rows[: system.fluid_count]
     points = boundary.points
@@ -195,9 +203,9 @@ def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator, kernel
         if np.any(wrong):
             g = int(np.argmax(wrong))
             raise SimulationError(
-                f"{find('interpolators', case.interpolator.name).label} returned {what} for ghost {g}"
+                f"{_method(case).label} returned {what} for ghost {g}"
                 f" (lowest {lowest[g]:.4g}, sum {sums[g]:.6g}); fix the method or its traits: sphframe verify"
-                f" {case.interpolator.name} shows a small example",
+                f" {_method(case).name} shows a small example",
                 place=tuple(float(x) for x in points[g]),
             )
 

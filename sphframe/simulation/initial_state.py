@@ -6,18 +6,21 @@ import numpy as np
 
 from sphframe.arrays import Array, IntArray
 from sphframe.boundary.boundary import Boundary
-from sphframe.boundary.filling import Filling
+from sphframe.boundary.wall_states import WallStates
 from sphframe.cases import Case, Scene
 from sphframe.compiled import LANES, specialise
 from sphframe.errors import InputError
 from sphframe.geometry import fill, panels_of
+from sphframe.interfaces import WallGeometry
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
 from sphframe.physics import LoopParameters, invert_pressure
 from sphframe.simulation.body_contact import FREQUENCY, BodyContacts
 from sphframe.simulation.components import Components
 from sphframe.simulation.filling_check import WallFilling, check_filling, filling_beside_walls
+from sphframe.simulation.initial_walls import hydrostatic_densities, initial_boundary, initial_filling
 from sphframe.simulation.light_bodies import check_weights
+from sphframe.simulation.rate_loops import RateLoops
 from sphframe.simulation.rest_state import pressure_at_depth, still_levels
 from sphframe.simulation.system import FluidSystem
 
@@ -36,6 +39,8 @@ def loop_parameters(case: Case, scene: Scene, components: Components) -> LoopPar
         gravity=case.gravity,
         density_diffusion=case.density_diffusion,
         artificial_viscosity=case.artificial_viscosity,
+        spacing=case.particle_spacing,
+        depth=scene.depth,
     )
 
 
@@ -56,15 +61,7 @@ def drawn(case: Case, scene: Scene, components: Components, parameters: LoopPara
     position = np.vstack([filled.position for filled in fills])
     volume = np.concatenate([filled.volume for filled in fills])
     _check_scene(scene, position, case.dimension)
-    boundary = Boundary(
-        scene.walls,
-        scene.bodies,
-        components.interpolator.traits.evaluation_point,
-        fluid=scene.fluid,
-        spacing=spacing,
-        support=parameters.support,
-        no_slip=case.slip == "no",
-    )
+    boundary = initial_boundary(case, scene, components, parameters)
     region = np.repeat(np.arange(len(fills)), [len(filled.volume) for filled in fills])
     filling = filling_beside_walls(boundary, position, volume, spacing, components, parameters)
     return Drawn(boundary, position, volume, region, filling)
@@ -79,14 +76,8 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     """
     dim, spacing = case.dimension, case.particle_spacing
     boundary, position, volumes, members, wall_filling = drawn(case, scene, components, parameters)
-    check_filling(wall_filling, scene.walls, refuse=case.guards.filling == "stop")
-    filling = Filling(
-        components.interpolator,
-        components.compiled_kernel,
-        components.parts,
-        balanced=case.hydrostatic_lift == "balanced",
-        corrected=case.ghost_velocity == "corrected",
-    )
+    if components.wall_treatment.geometry is WallGeometry.LAYERS:
+        check_filling(wall_filling, scene.walls, refuse=case.guards.filling == "stop")
     lists = NeighbourLists(
         dim,
         len(position),
@@ -113,8 +104,13 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     for index, region in enumerate(scene.fluid):
         if region.velocity is not None:
             rows[: len(position)][members == index, Columns.of(dim).velocity] = region.velocity
+    if components.walls.rate is not None:
+        boundary.wall_state[:] = hydrostatic_densities(boundary, position, pressure, components, parameters)
     contacts = _contacts(scene, boundary, position, spacing, parameters)
-    system = FluidSystem(rows, boundary, filling, lists, components.parts, parameters, contacts)
+    loops = RateLoops(components.parts, components.walls, attracts=case.tension != "none")
+    states = WallStates(boundary, components.walls.rate, components.parts)
+    filling = initial_filling(case, components)
+    system = FluidSystem(rows, boundary, filling, lists, loops, states, components.parts, parameters, contacts)
     system.move_walls(0.0)
     system.find_neighbours()
     system.evaluate(0.0)

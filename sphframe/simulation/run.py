@@ -40,7 +40,7 @@ class Run:
         case, sizes = self.case, self.dataset.sizes
         return [
             ("case", str(self.dataset.attrs["case_name"])),
-            ("method", f"{case.interpolator.name} with {case.hydrostatic_lift} lift"),
+            ("method", case.wall_method),
             ("particles", f"{sizes['particle']:,} particles of {case.particle_spacing:g} m, {case.dimension}-D"),
             ("time", f"{case.until:.4g} s in {sizes['time']} frames"),
             ("file", str(self.path)),

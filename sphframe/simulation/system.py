@@ -13,13 +13,15 @@ from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.contact import put_back
 from sphframe.boundary.corners import Shares
 from sphframe.boundary.filling import Filling
+from sphframe.boundary.wall_states import WallStates
 from sphframe.compiled import specialise
 from sphframe.interfaces import System
 from sphframe.neighbours import LargestMotion, NeighbourLists, put_in_order
 from sphframe.particles import Columns
-from sphframe.physics import LoopParameters, fluid_sums, update_pressure, wall_reaction
+from sphframe.physics import LoopParameters, update_pressure
 from sphframe.simulation.body_contact import BodyContacts
 from sphframe.simulation.body_states import BodyStates
+from sphframe.simulation.rate_loops import RateLoops
 from sphframe.simulation.updates import add_columns, advance_state, copy_state
 
 _SAVED = ("rows", "rates", "gradient", "loads")
@@ -45,6 +47,8 @@ class FluidSystem(System):
         boundary: Boundary,
         filling: Filling,
         lists: NeighbourLists,
+        loops: RateLoops,
+        wall_states: WallStates,
         parts: Mapping[str, Any],
         parameters: LoopParameters,
         contacts: BodyContacts,
@@ -52,7 +56,7 @@ class FluidSystem(System):
         dim = boundary.dim
         self.boundary = boundary
         self.contacts = contacts
-        self._filling = filling
+        self._filling, self._loops, self.wall_states = filling, loops, wall_states
         self.parameters = parameters
         self.columns = Columns.of(dim)
         self.bodies = BodyStates(boundary.bodies, dim)
@@ -62,9 +66,6 @@ class FluidSystem(System):
         self._driving_force = np.zeros(dim)
         self._driving_force[-1] = -parameters.reference_density * parameters.gravity
         self._pressure = specialise(update_pressure, parts)
-        self._density_rates = specialise(fluid_sums, {**parts, "CONTINUITY": True})
-        self._accelerations = specialise(fluid_sums, {**parts, "CONTINUITY": False})
-        self._wall_reaction = specialise(wall_reaction, parts)
         count = lists.fluid_count
         self.rows, self.lists = rows, lists
         self.ids = np.arange(count)
@@ -110,21 +111,21 @@ class FluidSystem(System):
     def evaluate(self, time: float) -> None:
         """Compute all rates of the present state at ``time``."""
         self.evaluate_acceleration(time)
-        self._sum(self._density_rates)
+        self._sum_density_rates()
 
     def evaluate_density(self, time: float) -> None:
         """Compute the density rates of the present state at ``time``, with the density gradient last computed."""
         self.move_walls(time)
         self.update_pressure()
         self.fill_ghosts()
-        self._sum(self._density_rates)
+        self._sum_density_rates()
 
     def evaluate_acceleration(self, time: float) -> None:
         """Compute the accelerations and the density gradient of the present state at ``time``."""
         self.move_walls(time)
         self.update_pressure()
         self.fill_ghosts()
-        self._sum(self._accelerations)
+        self._sum(continuity=False)
         if self.bodies.need_loads:
             self.update_loads()
         if len(self.bodies):
@@ -152,9 +153,14 @@ class FluidSystem(System):
         """Mirror, interpolate, assign."""
         self._filling(self.rows, self.lists, self.boundary, self.parameters)
 
-    def _sum(self, sums: Any) -> None:
-        lists = self.lists
-        sums(self.rows, lists.fluid, lists.fluid_counts, lists.ghost_counts, self.parameters, self.gradient, self.rates)
+    def _sum_density_rates(self) -> None:
+        self._sum(continuity=True)
+        self.wall_states.evaluate(self.rows, self.lists, self.parameters)
+
+    def _sum(self, *, continuity: bool) -> None:
+        self._loops(
+            self.rows, self.lists, self.boundary, self.parameters, self.gradient, self.rates, continuity=continuity
+        )
 
     def update_loads(self) -> None:
         """Compute force and moment of the fluid on each wall."""
@@ -162,11 +168,7 @@ class FluidSystem(System):
         self._react(self.boundary.wall, shares, self.references(), self._partial_loads, self.loads)
 
     def _react(self, walls: IntArray, shares: Shares, centres: Array, partial: Array, loads: Array) -> None:
-        lists = self.lists
-        self._wall_reaction(
-            self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, walls, shares, centres,
-            self.parameters, partial, loads,
-        )  # fmt: skip
+        self._loops.react(self.rows, self.lists, self.boundary, self.parameters, walls, shares, centres, partial, loads)
 
     def references(self) -> Array:
         """Return the points (walls, dim) to which moments refer: the centre of the wall's body, or the origin, m."""
@@ -211,22 +213,26 @@ class FluidSystem(System):
         copy_state(self.rows, self._start)
         self._total[:] = 0.0
         self.bodies.hold()
+        self.wall_states.hold()
 
     def advance(self, interval: float) -> None:
         """y = y0 + interval * f."""
         advance_state(self.rows, self._start, self.rates, interval)
         self.bodies.advance(interval)
+        self.wall_states.advance(interval)
         self._pressure_is_current = False
 
     def accumulate(self, weight: float) -> None:
         """total = total + weight * f."""
         add_columns(self._total, self.rates, self.fluid_count, 0, self._total.shape[1], 0, weight)
         self.bodies.accumulate(weight)
+        self.wall_states.accumulate(weight)
 
     def advance_total(self, interval: float) -> None:
         """y = y0 + interval * total."""
         advance_state(self.rows, self._start, self._total, interval)
         self.bodies.advance_total(interval)
+        self.wall_states.advance_total(interval)
         self._pressure_is_current = False
 
     def drift(self, interval: float) -> None:
@@ -245,6 +251,7 @@ class FluidSystem(System):
         """rho = rho + interval * density rate."""
         density = self.columns.density
         add_columns(self.rows, self.rates, self.fluid_count, density, density + 1, 0, interval)
+        self.wall_states.update_density(interval)
         self._pressure_is_current = False
 
     # what restarts a run

@@ -3,6 +3,7 @@
 The file's name contains a hash of all that the result depends on, so that a finished task is recognised by its name.
 """
 
+import dataclasses
 import hashlib
 import json
 import os
@@ -22,12 +23,12 @@ from sphframe.errors import InputError, OutputError, SimulationError
 from sphframe.geometry import fill
 from sphframe.hooks import hookimpl
 from sphframe.interfaces import RunView
-from sphframe.kernels import compiled_kernel
 from sphframe.output import open_dataset
 from sphframe.output.checkpoint import checkpoint_path
 from sphframe.output.lock import lock_file
 from sphframe.output.provenance import distributions, registered_name, software
 from sphframe.registry import load
+from sphframe.simulation.components import Components
 from sphframe.simulation.run import resume, run
 
 UNFINISHED = "unfinished"
@@ -173,9 +174,13 @@ def made_with(case: Case) -> dict[str, str]:
 
     The fingerprint is there because the author of a method changes its code without changing its version.
     """
-    method = case.interpolator.create("interpolators")
-    kernel = compiled_kernel(case.kernel.create("kernels"), case.dimension)
-    return {**distributions(case), "method": fingerprint(method.point_weights(kernel, case.dimension))}
+    components = Components.of_case(case)
+    walls = (getattr(components.walls, part.name) for part in dataclasses.fields(components.walls))
+    pieces = [fingerprint(part) if callable(part) else str(part) for part in walls]
+    if components.interpolator is not None:
+        weights = components.interpolator.point_weights(components.compiled_kernel, case.dimension)
+        pieces.append(fingerprint(weights))
+    return {**distributions(case), "method": " ".join(pieces)}
 
 
 def software_of(tasks: Iterable[Task]) -> dict[str, str]:

@@ -4,8 +4,16 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sphframe.interfaces import BoundaryInterpolator, EquationOfState, Integrator, Kernel, RigidBody, Traits
-from sphframe.testing import equations_of_state, integrators, interpolators, kernels, rigid_bodies
+from sphframe.interfaces import (
+    BoundaryInterpolator,
+    EquationOfState,
+    Integrator,
+    Kernel,
+    RigidBody,
+    Traits,
+    WallTreatment,
+)
+from sphframe.testing import equations_of_state, integrators, interpolators, kernels, rigid_bodies, wall_treatments
 from sphframe.testing.evaluation import title
 
 
@@ -51,7 +59,7 @@ def checks_of(component: Any, *, promised_only: bool = True) -> list[Check]:
 
     Parameters
     ----------
-    component: an interpolation method, kernel, equation of state, integrator or rigid body.
+    component: an interpolation method, wall treatment, kernel, equation of state, integrator or rigid body.
     promised_only: leave out the checks of traits that a method does not declare.
 
     Raises
@@ -60,12 +68,14 @@ def checks_of(component: Any, *, promised_only: bool = True) -> list[Check]:
     """
     if isinstance(component, BoundaryInterpolator):
         return _checks_of_method(component, promised_only)
+    if isinstance(component, WallTreatment):
+        return _checks_of_treatment(component, promised_only)
     for interface, checks in _OTHER_INTERFACES.items():
         if isinstance(component, interface):
             return [Check(name, function) for name, function in checks.items()]
     raise TypeError(
-        f"there are no checks for {component!r}: give an instance of BoundaryInterpolator, Kernel, EquationOfState,"
-        f" Integrator or RigidBody"
+        f"there are no checks for {component!r}: give an instance of BoundaryInterpolator, WallTreatment, Kernel,"
+        f" EquationOfState, Integrator or RigidBody"
     )
 
 
@@ -81,6 +91,20 @@ def _checks_of_method(method: BoundaryInterpolator, promised_only: bool) -> list
             for name, (function, is_promised) in interpolators.CHECKS_OF_TRAITS.items()
             if is_promised(traits) or not promised_only
         ]
+    return found
+
+
+def _checks_of_treatment(treatment: WallTreatment, promised_only: bool) -> list[Check]:
+    found = [
+        Check(name, function, dim)
+        for name, function in wall_treatments.CHECKS.items()
+        for dim in treatment.traits.dimensions
+    ]
+    found += [
+        Check(name, function, promised=is_promised(treatment.traits), optional=True)
+        for name, (function, is_promised) in wall_treatments.CHECKS_OF_TRAITS.items()
+        if is_promised(treatment.traits) or not promised_only
+    ]
     return found
 
 

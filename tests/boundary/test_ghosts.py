@@ -5,9 +5,10 @@ import pytest
 
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.filling import Filling
+from sphframe.boundary.fixed_ghosts import FixedGhosts
 from sphframe.equations_of_state.linear import Linear
 from sphframe.geometry import BoxRegion, BoxWall, Polygon, PolygonWall, fill
-from sphframe.interfaces import Motion, RigidBody, Status
+from sphframe.interfaces import Motion, RigidBody, Status, WallContext
 from sphframe.kernels import compiled_kernel
 from sphframe.kernels.gaussian import RenormalisedGaussian
 from sphframe.neighbours import NeighbourLists
@@ -59,7 +60,11 @@ class Basin:
             no_slip=slip == "no",
         )
         parts = loop_parts(self.kernel, Linear(), dim)
-        self.filling = Filling(interpolator, self.kernel, parts, corrected=corrected, balanced=lift == "balanced")
+        context = WallContext(
+            self.kernel, dim, interpolator, no_slip=slip == "no", balanced_lift=lift == "balanced",
+            corrected_velocity=corrected,
+        )  # fmt: skip
+        self.filling = Filling(interpolator, self.kernel, parts, FixedGhosts().parts(context))
         position = fill(region, SPACING).position.copy()
         position += np.random.default_rng(0).uniform(-jitter, jitter, position.shape) * SPACING
         self.n = len(position)

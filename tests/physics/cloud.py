@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from sphframe.boundary.boundary import WallArrays
 from sphframe.compiled import LANES, specialise
 from sphframe.interfaces import CompiledKernel
 from sphframe.kernels import compiled_kernel
@@ -37,6 +38,19 @@ class Cloud:
             self.kernel, self.dim, smoothing_length=self.h, reference_density=1000.0, sound_speed=40.0, **zero
         )
         return of_case._replace(**numbers)
+
+    def walls(self, seed=5):
+        """Arrays of the ghosts with random normals, distances and velocities."""
+        g = len(self.rows) - self.fluid_count
+        random = np.random.default_rng(seed)
+        normal = random.normal(size=(g, self.dim))
+        normal /= np.linalg.norm(normal, axis=1)[:, None]
+        vectors = [random.normal(size=(g, self.dim)) for _ in range(3)]
+        return WallArrays(
+            normal, random.uniform(0.02, 0.2, g), np.tile(-np.eye(self.dim), (g, 1, 1)), vectors[0],
+            1e4 * vectors[1], self.rows[self.fluid_count :, Columns.of(self.dim).volume].copy(), np.ones(g),
+            vectors[2], np.full(g, 1000.0),
+        )  # fmt: skip
 
     def parts(self):
         return {

@@ -140,7 +140,8 @@ def test_wall_reaction_is_opposite_to_what_ghosts_do_to_the_fluid(dim):
     loads, partial = np.full((2, size), np.nan), np.full((7, 2, size), np.nan)
     specialise(wall_reaction, cloud.parts())(
         cloud.rows, cloud.fluid_count, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, walls,
-        Shares(np.full_like(walls, -1), nothing, nothing), np.zeros((2, dim)), cloud.parameters(viscosity=viscosity),
+        Shares(np.full_like(walls, -1), nothing, nothing), np.zeros((2, dim)), cloud.walls(),
+        cloud.parameters(viscosity=viscosity),
         partial, loads,
     )  # fmt: skip
     np.testing.assert_allclose(loads[:, :dim].sum(axis=0), expected, rtol=1e-10)

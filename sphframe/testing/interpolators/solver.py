@@ -5,9 +5,10 @@ import numpy as np
 from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.filling import Filling
+from sphframe.boundary.fixed_ghosts import FixedGhosts
 from sphframe.boundary.operator import operator
 from sphframe.geometry import Box, PolygonWall
-from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint
+from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint, WallContext
 from sphframe.kernels import compiled_kernel
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
@@ -71,7 +72,8 @@ def _filled_pool(method: BoundaryInterpolator) -> tuple[Boundary, Array]:
         no_slip=False,
     )
     parts = loop_parts(kernel, create("equations_of_state", "linear"), 2)
-    filling = Filling(method, kernel, parts, corrected=True, balanced=True)
+    context = WallContext(kernel, 2, method, no_slip=False, balanced_lift=True, corrected_velocity=True)
+    filling = Filling(method, kernel, parts, FixedGhosts().parts(context))
     fluid = _fluid_rows(columns)
     n = len(fluid)
     rows = np.concatenate([fluid, columns.zeros(boundary.count)])

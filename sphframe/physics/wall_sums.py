@@ -1,0 +1,99 @@
+"""Physics: the sums over wall particles for treatments that change what the fluid sees of them.
+
+They take the place of the part of :func:`sphframe.physics.rates.fluid_sums` for ghosts, with the same equations, but
+pressure and velocities of a wall particle are those that the treatment lets this fluid particle see. A treatment with a
+force of its own adds its acceleration instead, and has no part in the density rate.
+"""
+
+import numba
+
+from sphframe.compiled import LANES, fma, local_array
+from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, SEEN, SUPPORT
+from sphframe.interfaces import FluidSide, Separation
+from sphframe.physics.momentum import pair_stress
+from sphframe.physics.wall_pair import wall_side
+
+# parts bound by specialise()
+CONTINUITY = True
+FORCES = False
+
+
+def wall_sums(  # type: ignore[no-untyped-def]
+    rows, lists, fluid_counts, ghost_counts, walls, parameters, rates
+):
+    """Add the sums over wall particles to the density rates or, without CONTINUITY, to the accelerations ``rates``.
+
+    ``walls``: :class:`~sphframe.boundary.boundary.WallArrays`; all others as in :func:`fluid_sums`.
+    """
+    limit = parameters.support * parameters.support
+    per_h2 = SUPPORT * SUPPORT / limit
+    n = rates.shape[0]
+    for c in numba.prange(fluid_counts.shape[0]):
+        if ghost_counts[c] == 0:
+            continue
+        first = c * LANES
+        present = min(LANES, n - first)
+        x, y, z = local_array(LANES), local_array(LANES), local_array(LANES)
+        u, v, w = local_array(LANES), local_array(LANES), local_array(LANES)
+        density, pressure = local_array(LANES), local_array(LANES)
+        compression = local_array(LANES)
+        fx, fy, fz = local_array(LANES), local_array(LANES), local_array(LANES)
+        for a in range(LANES):
+            i = first + min(a, present - 1)  # unused lanes repeat the last particle
+            x[a] = rows[i, 0]
+            y[a] = rows[i, 1]
+            z[a] = rows[i, 2] if DIM == 3 else 0.0
+            u[a] = rows[i, COLUMNS.u]
+            v[a] = rows[i, COLUMNS.v]
+            w[a] = rows[i, COLUMNS.w] if DIM == 3 else 0.0
+            density[a] = rows[i, COLUMNS.density]
+            pressure[a] = rows[i, COLUMNS.pressure]
+            compression[a] = fx[a] = fy[a] = fz[a] = 0.0
+        for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
+            j = lists[c, k]
+            xj = rows[j, 0]
+            yj = rows[j, 1]
+            zj = rows[j, 2] if DIM == 3 else 0.0
+            scale = -parameters.gradient_scale * rows[j, COLUMNS.volume]
+            wall = wall_side(rows, j, walls, j - n, COLUMNS)
+            for a in range(LANES):
+                dx = xj - x[a]
+                dy = yj - y[a]
+                dz = zj - z[a]
+                r2 = fma(dx, dx, dy * dy)
+                if DIM == 3:
+                    r2 = fma(dz, dz, r2)
+                separation = Separation(dx, dy, dz, r2)
+                if FORCES:
+                    ax, ay, az = FORCE(wall, separation, parameters)
+                    fx[a] += ax
+                    fy[a] += ay
+                    fz[a] += az
+                else:
+                    weight = GRADIENT(r2 * per_h2) * scale
+                    weight = weight if r2 < limit else 0.0
+                    seen = SEEN(FluidSide(pressure[a], density[a], u[a], v[a], w[a]), wall, separation, parameters)
+                    if CONTINUITY:
+                        approach = fma(seen.u - u[a], dx, (seen.v - v[a]) * dy)
+                        if DIM == 3:
+                            approach = fma(seen.w - w[a], dz, approach)
+                        compression[a] = fma(weight, approach, compression[a])
+                    else:
+                        approach = fma(seen.viscous_u - u[a], dx, (seen.viscous_v - v[a]) * dy)
+                        if DIM == 3:
+                            approach = fma(seen.viscous_w - w[a], dz, approach)
+                        stress = weight * pair_stress(seen.pressure_sum, parameters.viscosity, approach, r2)
+                        fx[a] = fma(stress, dx, fx[a])
+                        fy[a] = fma(stress, dy, fy[a])
+                        if DIM == 3:
+                            fz[a] = fma(stress, dz, fz[a])
+        for a in range(present):
+            i = first + a
+            if CONTINUITY:
+                rates[i, COLUMNS.density] -= density[a] * compression[a]
+            else:
+                per_density = 1.0 if FORCES else 1.0 / density[a]
+                rates[i, COLUMNS.u] += fx[a] * per_density
+                rates[i, COLUMNS.v] += fy[a] * per_density
+                if DIM == 3:
+                    rates[i, COLUMNS.w] += fz[a] * per_density

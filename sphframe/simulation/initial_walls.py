@@ -1,0 +1,57 @@
+"""Simulation: the wall particles of a case at the start, and how they are filled from the fluid."""
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from sphframe.arrays import Array
+from sphframe.boundary.boundary import Boundary
+from sphframe.boundary.filling import Filling
+from sphframe.cases import Case, Scene
+from sphframe.interfaces import EvaluationPoint, WallGeometry
+from sphframe.physics import LoopParameters
+from sphframe.simulation.components import Components
+from sphframe.simulation.filling_check import filling_by
+
+
+def initial_boundary(case: Case, scene: Scene, components: Components, parameters: LoopParameters) -> Boundary:
+    """Return the wall particles that the treatment needs."""
+    interpolator, treatment = components.interpolator, components.wall_treatment
+    in_row = treatment.geometry is WallGeometry.ROW
+    boundary = Boundary(
+        scene.walls,
+        scene.bodies,
+        EvaluationPoint.GHOST if interpolator is None else interpolator.traits.evaluation_point,
+        fluid=scene.fluid,
+        spacing=case.particle_spacing,
+        support=parameters.support,
+        no_slip=case.slip == "no",
+        row_spacing=treatment.row_spacing * case.particle_spacing if in_row else None,
+    )
+    if case.tension == "none" and interpolator is not None:
+        boundary.full[:] = 1.0 - filling_by(boundary.position, boundary.volume, boundary.points, components, parameters)
+    return boundary
+
+
+def initial_filling(case: Case, components: Components) -> Filling:
+    """Return the loop that fills the wall particles."""
+    return Filling(
+        components.interpolator,
+        components.compiled_kernel,
+        components.parts,
+        components.walls,
+        velocity_interpolator=components.velocity_interpolator,
+        tension=case.tension,
+        lowest_pressure=case.lowest_pressure,
+    )
+
+
+def hydrostatic_densities(
+    boundary: Boundary, position: Array, pressure: Array, components: Components, parameters: LoopParameters
+) -> Array:
+    """Return densities of ghosts (g,) in equilibrium with the nearest particle of the fluid; rho0 where it is far."""
+    distance, nearest = cKDTree(position).query(boundary.position)
+    higher = boundary.position[:, -1] - position[nearest, -1]
+    rho0, c0 = parameters.reference_density, parameters.sound_speed
+    found = np.maximum(pressure[nearest] - rho0 * parameters.gravity * higher, 0.0)
+    found[distance > parameters.support] = 0.0
+    return np.array([components.parts["DENSITY"](p, rho0, c0) for p in found])

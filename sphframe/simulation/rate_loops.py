@@ -1,0 +1,76 @@
+"""Simulation: the compiled sums of continuity and momentum over fluid and walls, as the treatment needs them."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from sphframe.arrays import Array, IntArray
+from sphframe.boundary.boundary import Boundary
+from sphframe.boundary.corners import Shares
+from sphframe.compiled import specialise
+from sphframe.interfaces import WallParts
+from sphframe.neighbours import NeighbourLists
+from sphframe.physics import LoopParameters, fluid_sums, make_seen, wall_reaction, wall_sums
+
+
+class RateLoops:
+    """Density rates, accelerations and wall loads with the compiled ``parts`` and the ``walls`` of the treatment.
+
+    Where the treatment leaves ghosts as they were assigned, one loop sums over fluid and ghosts. Else a second one
+    sums over the ghosts. ``attracts``: whether a pair of fluid and ghost may attract.
+    """
+
+    def __init__(self, parts: Mapping[str, Any], walls: WallParts, *, attracts: bool) -> None:
+        as_assigned = walls.seen is None and walls.force is None and walls.friction and attracts
+        as_assigned = as_assigned and not walls.own_viscous_velocity
+        bound = {**parts, "AS_ASSIGNED": as_assigned, "FORCES": walls.force is not None}
+        if not as_assigned:
+            bound["KINDS"] = 1
+            bound["SEEN"] = make_seen(walls, attracts=attracts)
+            bound["FORCE"] = walls.force or _no_force
+        self._fluid, self._walls = {}, {}
+        for continuity in (True, False):
+            bound["CONTINUITY"] = continuity
+            self._fluid[continuity] = specialise(fluid_sums, bound)
+            if not as_assigned and not (continuity and walls.force):
+                self._walls[continuity] = specialise(wall_sums, bound)
+        self._reaction = specialise(wall_reaction, bound)
+
+    def __call__(
+        self,
+        rows: Array,
+        lists: NeighbourLists,
+        boundary: Boundary,
+        parameters: LoopParameters,
+        gradient: Array,
+        rates: Array,
+        *,
+        continuity: bool,
+    ) -> None:
+        """Write density rates or accelerations to ``rates``, see :func:`sphframe.physics.rates.fluid_sums`."""
+        near = lists.fluid, lists.fluid_counts, lists.ghost_counts
+        self._fluid[continuity](rows, *near, parameters, gradient, rates)
+        if continuity in self._walls:
+            self._walls[continuity](rows, *near, boundary.arrays, parameters, rates)
+
+    def react(
+        self,
+        rows: Array,
+        lists: NeighbourLists,
+        boundary: Boundary,
+        parameters: LoopParameters,
+        walls: IntArray,
+        shares: Shares,
+        centres: Array,
+        partial: Array,
+        loads: Array,
+    ) -> None:
+        """Write the loads on ``walls``, see :func:`sphframe.physics.wall_force.wall_reaction`."""
+        self._reaction(
+            rows, lists.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, walls, shares, centres,
+            boundary.arrays, parameters, partial, loads,
+        )  # fmt: skip
+
+
+def _no_force(wall: Any, separation: Any, constants: Any) -> tuple[float, float, float]:
+    """Stand for the force of a treatment that has none."""
+    return 0.0, 0.0, 0.0
