@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 from sphframe.arrays import Array
 from sphframe.interfaces.boundary_interpolator import BoundaryInterpolator
+from sphframe.interfaces.equation_of_state import StateFunction
 from sphframe.interfaces.kernel import CompiledKernel
 
 
@@ -189,6 +190,7 @@ class WallContext:
     interpolator, velocity_interpolator: what the methods of these names of :class:`WallTreatment` returned.
     no_slip: whether the case asks for no slip.
     balanced_lift, corrected_velocity: the case's ``hydrostatic_lift`` and ``ghost_velocity``.
+    pressure: the case's equation of state, p(rho, rho0, c0), for the states that ``rate`` advances.
     """
 
     kernel: CompiledKernel
@@ -198,6 +200,7 @@ class WallContext:
     balanced_lift: bool = True
     corrected_velocity: bool = True
     velocity_interpolator: BoundaryInterpolator | None = None
+    pressure: StateFunction | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

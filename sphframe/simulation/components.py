@@ -66,6 +66,7 @@ class Components:
             balanced_lift=case.hydrostatic_lift == "balanced",
             corrected_velocity=case.ghost_velocity == "corrected",
             velocity_interpolator=velocity_interpolator,
+            pressure=parts["PRESSURE"],
         )
         chosen["velocity_interpolator"] = velocity_interpolator
         return cls(**chosen, compiled_kernel=kernel, walls=treatment.parts(context), parts=parts)
