@@ -22,6 +22,7 @@ from sphframe.interfaces import TOO_FEW as TOO_FEW
 from sphframe.interfaces import AssignFunction as AssignFunction
 from sphframe.interfaces import BoundaryInterpolator as BoundaryInterpolator
 from sphframe.interfaces import CompiledKernel as CompiledKernel
+from sphframe.interfaces import Edge as Edge
 from sphframe.interfaces import EquationOfState as EquationOfState
 from sphframe.interfaces import EvaluationPoint as EvaluationPoint
 from sphframe.interfaces import FluidSide as FluidSide
@@ -38,6 +39,7 @@ from sphframe.interfaces import SeenFunction as SeenFunction
 from sphframe.interfaces import Separation as Separation
 from sphframe.interfaces import Solid as Solid
 from sphframe.interfaces import Status as Status
+from sphframe.interfaces import SurfaceFunction as SurfaceFunction
 from sphframe.interfaces import Surroundings as Surroundings
 from sphframe.interfaces import System as System
 from sphframe.interfaces import Traits as Traits

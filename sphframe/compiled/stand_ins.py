@@ -6,7 +6,14 @@ for readers and type checkers.
 
 from typing import Any, NoReturn
 
-from sphframe.interfaces import AssignFunction, ForceFunction, RateFunction, SeenFunction, WeightsFunction
+from sphframe.interfaces import (
+    AssignFunction,
+    ForceFunction,
+    RateFunction,
+    SeenFunction,
+    SurfaceFunction,
+    WeightsFunction,
+)
 from sphframe.interfaces.edge_integrals import EdgeFunction, ScalarFunction
 from sphframe.interfaces.equation_of_state import StateFunction
 from sphframe.particles import Columns
@@ -45,3 +52,5 @@ FORCE: ForceFunction = _not_bound
 """acceleration of a fluid particle by a wall particle"""
 RATE: RateFunction = _not_bound
 """rate of the state of a wall particle"""
+SURFACE: SurfaceFunction = _not_bound
+"""force and divergence of an edge of a wall at a fluid particle"""

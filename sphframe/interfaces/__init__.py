@@ -12,6 +12,7 @@ from sphframe.interfaces.run_view import Fields, ResumableRun, RunView, WallLoad
 from sphframe.interfaces.traits import DRY, OK, SINGULAR, TOO_FEW, EvaluationPoint, Status, Traits
 from sphframe.interfaces.wall_treatment import (
     AssignFunction,
+    Edge,
     FluidSide,
     ForceFunction,
     Interpolated,
@@ -20,6 +21,7 @@ from sphframe.interfaces.wall_treatment import (
     Seen,
     SeenFunction,
     Separation,
+    SurfaceFunction,
     WallContext,
     WallGeometry,
     WallParts,
@@ -37,6 +39,7 @@ __all__ = [
     "AssignFunction",
     "BoundaryInterpolator",
     "CompiledKernel",
+    "Edge",
     "EquationOfState",
     "EvaluationPoint",
     "Fields",
@@ -56,6 +59,7 @@ __all__ = [
     "Separation",
     "Solid",
     "Status",
+    "SurfaceFunction",
     "Surroundings",
     "System",
     "Traits",

@@ -127,6 +127,23 @@ class Separation(NamedTuple):
     r2: float
 
 
+class Edge(NamedTuple):
+    """An edge of a wall with the integrals of the kernel over it, as a fluid particle sees it, in two dimensions.
+
+    ``z``: distance of the particle before the line of the edge, m, negative behind it; ``start``, ``end``: of the edge,
+    m, along t = (-n_y, n_x) from the particle's foot; ``solid``: part of the kernel that the solid behind the edge
+    takes; ``weight`` = int W ds, 1/m, so that the gradient of gamma = 1 - sum solid is -sum n weight; ``moment`` =
+    int W s ds.
+    """
+
+    z: float
+    start: float
+    end: float
+    solid: float
+    weight: float
+    moment: float
+
+
 class Seen(NamedTuple):
     """What a fluid particle i sees of a wall particle G.
 
@@ -145,6 +162,7 @@ class Seen(NamedTuple):
 AssignFunction = Callable[[Interpolated, WallPoint, Any, Array, Array], tuple[float, float]]
 SeenFunction = Callable[[FluidSide, WallSide, Separation, Any], Seen]
 ForceFunction = Callable[[WallSide, Separation, Any], tuple[float, float, float]]
+SurfaceFunction = Callable[[FluidSide, WallSide, Edge, Any], tuple[float, float, float]]
 RateFunction = Callable[[Neighbours, WallPoint, Any], float]
 
 
@@ -164,6 +182,10 @@ class WallParts:
         must be finite for any finite input. Without it, a pair sees what is assigned.
     force: ``force(wall, separation, constants) -> (ax, ay, az)``, acceleration of a fluid particle per pair, m/s^2;
         0 beyond the cut-off. It takes the place of the sums over wall particles in continuity and momentum.
+    surface: ``surface(fluid, wall, edge, constants) -> (fx, fy, divergence)``, per fluid particle and edge, in two
+        dimensions: force per volume, Pa/m, and part of the divergence of the velocity, 1/s. The edges are the pieces of
+        a row on the wall. They take the place of the sums over wall particles.
+    divides_by_gamma: whether the sums over fluid and edges are divided by gamma.
     rate: ``rate(neighbours, wall, constants) -> d(state)/dt``, once per wall particle and evaluation. The state is a
         density; it starts in hydrostatic equilibrium, is advanced by the integrator, and is part of checkpoints.
     own_viscous_velocity: whether ``assign`` writes a velocity for the viscosity; else it is that for the continuity.
@@ -174,6 +196,8 @@ class WallParts:
     assign: AssignFunction | None = None
     seen: SeenFunction | None = None
     force: ForceFunction | None = None
+    surface: SurfaceFunction | None = None
+    divides_by_gamma: bool = False
     rate: RateFunction | None = None
     own_viscous_velocity: bool = False
     friction: bool = True

@@ -4,6 +4,7 @@ from sphframe.physics.parameters import LoopParameters
 from sphframe.physics.pressure import invert_pressure, update_pressure
 from sphframe.physics.rates import fluid_sums
 from sphframe.physics.sampling import sample_points
+from sphframe.physics.surface_sums import surface_reaction, surface_sums
 from sphframe.physics.wall_force import wall_reaction
 from sphframe.physics.wall_pair import make_seen
 from sphframe.physics.wall_sums import wall_sums
@@ -14,6 +15,8 @@ __all__ = [
     "invert_pressure",
     "make_seen",
     "sample_points",
+    "surface_reaction",
+    "surface_sums",
     "update_pressure",
     "wall_reaction",
     "wall_sums",

@@ -78,11 +78,12 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     boundary, position, volumes, members, wall_filling = drawn(case, scene, components, parameters)
     if components.wall_treatment.geometry is WallGeometry.LAYERS:
         check_filling(wall_filling, scene.walls, refuse=case.guards.filling == "stop")
+    half_edge = 0.5 * components.wall_treatment.row_spacing * spacing
     lists = NeighbourLists(
         dim,
         len(position),
         boundary.count,
-        parameters.support,
+        parameters.support if components.walls.surface is None else parameters.support + half_edge,
         SKIN * parameters.support,
         cluster=LANES,
         width=0.75 * LANES ** (1.0 / dim) * spacing,
@@ -107,7 +108,7 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     if components.walls.rate is not None:
         boundary.wall_state[:] = hydrostatic_densities(boundary, position, pressure, components, parameters)
     contacts = _contacts(scene, boundary, position, spacing, parameters)
-    loops = RateLoops(components.parts, components.walls, attracts=case.tension != "none")
+    loops = RateLoops(components.parts, components.compiled_kernel, components.walls, attracts=case.tension != "none")
     states = WallStates(boundary, components.walls.rate, components.parts)
     filling = initial_filling(case, components)
     system = FluidSystem(rows, boundary, filling, lists, loops, states, components.parts, parameters, contacts)

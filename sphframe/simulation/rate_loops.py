@@ -7,9 +7,17 @@ from sphframe.arrays import Array, IntArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.corners import Shares
 from sphframe.compiled import specialise
-from sphframe.interfaces import WallParts
+from sphframe.interfaces import CompiledKernel, WallParts
 from sphframe.neighbours import NeighbourLists
-from sphframe.physics import LoopParameters, fluid_sums, make_seen, wall_reaction, wall_sums
+from sphframe.physics import (
+    LoopParameters,
+    fluid_sums,
+    make_seen,
+    surface_reaction,
+    surface_sums,
+    wall_reaction,
+    wall_sums,
+)
 
 
 class RateLoops:
@@ -19,21 +27,26 @@ class RateLoops:
     sums over the ghosts. ``attracts``: whether a pair of fluid and ghost may attract.
     """
 
-    def __init__(self, parts: Mapping[str, Any], walls: WallParts, *, attracts: bool) -> None:
-        as_assigned = walls.seen is None and walls.force is None and walls.friction and attracts
-        as_assigned = as_assigned and not walls.own_viscous_velocity
+    def __init__(self, parts: Mapping[str, Any], kernel: CompiledKernel, walls: WallParts, *, attracts: bool) -> None:
+        own = walls.seen, walls.force, walls.surface
+        as_assigned = own == (None, None, None) and walls.friction and attracts and not walls.own_viscous_velocity
         bound = {**parts, "AS_ASSIGNED": as_assigned, "FORCES": walls.force is not None}
         if not as_assigned:
             bound["KINDS"] = 1
             bound["SEEN"] = make_seen(walls, attracts=attracts)
             bound["FORCE"] = walls.force or _no_force
+        over_walls, reaction = wall_sums, wall_reaction
+        if walls.surface is not None:
+            over_walls, reaction = surface_sums, surface_reaction
+            bound |= {"SURFACE": walls.surface, "DIVIDES": walls.divides_by_gamma, "SIGMA": kernel.normalisation}
+            bound["EDGE_INTEGRALS"] = kernel.edge_integrals
         self._fluid, self._walls = {}, {}
         for continuity in (True, False):
             bound["CONTINUITY"] = continuity
             self._fluid[continuity] = specialise(fluid_sums, bound)
             if not as_assigned and not (continuity and walls.force):
-                self._walls[continuity] = specialise(wall_sums, bound)
-        self._reaction = specialise(wall_reaction, bound)
+                self._walls[continuity] = specialise(over_walls, bound)
+        self._reaction = specialise(reaction, bound)
 
     def __call__(
         self,

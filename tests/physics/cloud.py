@@ -47,7 +47,7 @@ class Cloud:
         normal /= np.linalg.norm(normal, axis=1)[:, None]
         vectors = [random.normal(size=(g, self.dim)) for _ in range(3)]
         return WallArrays(
-            normal, random.uniform(0.02, 0.2, g), np.tile(-np.eye(self.dim), (g, 1, 1)), vectors[0],
+            normal, random.uniform(0.02, 0.2, g), np.full(g, 0.05), np.tile(-np.eye(self.dim), (g, 1, 1)), vectors[0],
             1e4 * vectors[1], self.rows[self.fluid_count :, Columns.of(self.dim).volume].copy(), np.ones(g),
             vectors[2], np.full(g, 1000.0),
         )  # fmt: skip
