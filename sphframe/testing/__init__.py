@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from sphframe.testing.strategies import clouds
     from sphframe.testing.suite import Check, checks_of, parametrize_with_checks
     from sphframe.testing.verification import Report, verify
-    from sphframe.testing.wall_treatments import WallResiduals, wall_residuals
+    from sphframe.testing.wall_treatments import WallResiduals, poiseuille_error, wall_residuals
 
 _HOMES = {
     "sphframe.testing.neighbourhoods": ["FAMILIES", "Cloud", "catalogue"],
@@ -30,7 +30,7 @@ _HOMES = {
     "sphframe.testing.strategies": ["clouds"],
     "sphframe.testing.suite": ["Check", "checks_of", "parametrize_with_checks"],
     "sphframe.testing.verification": ["Report", "verify"],
-    "sphframe.testing.wall_treatments": ["WallResiduals", "wall_residuals"],
+    "sphframe.testing.wall_treatments": ["WallResiduals", "poiseuille_error", "wall_residuals"],
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -47,6 +47,7 @@ __all__ = [
     "clouds",
     "evaluate",
     "parametrize_with_checks",
+    "poiseuille_error",
     "verify",
     "wall_residuals",
 ]

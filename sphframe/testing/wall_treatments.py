@@ -63,6 +63,36 @@ def wall_residuals(
     )
 
 
+def poiseuille_error(
+    treatment: WallTreatment, across: int, kernel: str = "wendland-c2", smoothing_length_ratio: float = 2.0
+) -> float:
+    """Return the largest error of plane Poiseuille flow, over the largest velocity, ``across`` spacings wide, in 2-D.
+
+    The viscous forces of the solver on layers of particles, half a spacing and so on from two plates, are a matrix of
+    the velocities of the layers, found column by column. The flow is the solution for a uniform force, which is scaled
+    by the viscous force of a parabola in the midst of the fluid, so that the error is that of the walls alone. The
+    viscosity is the artificial one, of the form of Monaghan and Gingold.
+    """
+    box = {"shape": "box", "lower": (0.0, 0.0), "upper": (20 * _SPACING, across * _SPACING)}
+    simulation = _box(
+        treatment, gravity=0.0, kernel=kernel, smoothing_length_ratio=smoothing_length_ratio,
+        walls=[{**box, "open_faces": ["-x", "+x"], "one_sided": True}], fluid=[box],
+    )  # fmt: skip
+    position = simulation.system.rows[: simulation.fluid_count, :2]
+    layer = np.floor(position[:, 1] / _SPACING).astype(int)
+    middle = np.flatnonzero(np.abs(position[:, 0] - 10.5 * _SPACING) < 0.2 * _SPACING)
+    middle = middle[np.argsort(layer[middle])]
+    height = (np.arange(across) + 0.5) / across
+
+    def forces(velocity: Array) -> Array:
+        _set(simulation, velocity=lambda _: np.stack([velocity[layer], np.zeros(len(layer))], axis=1))
+        return np.asarray(simulation.system.rates[middle, simulation.columns.u])
+
+    matrix = np.stack([forces(column) for column in np.eye(across)], axis=1)
+    scale = forces(height**2)[across // 2] / 2.0
+    return float(np.abs(np.linalg.solve(matrix, np.full(across, -8.0 * scale)) - 4.0 * height * (1.0 - height)).max())
+
+
 def _pair(values: Array) -> tuple[float, float]:
     return float(values[0]), float(values[1])
 

@@ -1,0 +1,97 @@
+"""Errors of rules at a straight wall on the lattice, to three digits, and the checks of treatments that break a promise.
+
+The numbers depend on the kernel alone. They are those of an independent program that sums over the lattice.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from sphframe import Seen, WallParts, WallTraits, WallTreatment, create
+from sphframe.testing import BrokenPromiseError, checks_of, wall_residuals
+from sphframe.testing.wall_treatments import poiseuille_error
+
+KERNELS = {"gaussian": 1.3, "wendland-c2": 2.0}
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "field", "gaussian", "wendland"),
+    [
+        ("fixed-ghosts", {}, "uniform", (0.0, 0.0), (0.0, 0.0)),
+        ("fixed-ghosts", {}, "hydrostatic", (0.0, 0.0), (0.0, 0.0)),
+        ("fixed-ghosts", {}, "normal", (1.0, 1.0), (1.0, 1.0)),
+        ("fixed-ghosts", {}, "shear", (0.0, 0.0), (0.0, 0.0)),
+        ("pair-mirror", {"lift": False}, "hydrostatic", (-0.50, -0.22), (-0.50, -0.30)),
+        ("pair-mirror", {"lift": False}, "normal", (0.89, 1.10), (0.84, 1.12)),
+        ("mdbc-2022", {}, "normal", (0.69, 0.94), (0.67, 0.91)),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_errors_at_a_straight_wall(name, options, field, gaussian, wendland):
+    treatment = create("wall_treatments", name, **options)
+    for (kernel, ratio), expected in zip(KERNELS.items(), (gaussian, wendland), strict=True):
+        found = getattr(wall_residuals(treatment, kernel, ratio), field)
+        np.testing.assert_allclose(found, expected, atol=0.0055 if any(expected) else 1e-3)
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "errors", "order"),
+    [
+        ("fixed-ghosts", {}, (0.80, 0.20), 2.0),
+        ("mdbc-2022", {}, (16.4, 8.0), 1.0),
+        ("mdbc-2025", {}, (4.8, 2.8), 0.75),
+        ("mdbc-2025", {"velocity": "corrected"}, (0.68, 0.17), 2.0),
+        ("distance-ratio", {}, (0.74, 0.18), 2.0),
+        ("adami-2012", {}, (0.58, 0.52), 0.15),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_poiseuille_flow_with_no_slip(name, options, errors, order):
+    """Rules that continue a shear flow exactly are of second order; with the wall's own velocity they are of first."""
+    treatment = create("wall_treatments", name, **options)
+    found = [100.0 * poiseuille_error(treatment, across) for across in (16, 32)]
+    np.testing.assert_allclose(found, errors, rtol=0.04)
+    assert abs(np.log2(found[0] / found[1]) - order) < 0.1
+
+
+@dataclass(frozen=True)
+class Wrong(WallTreatment):
+    """Promises everything and keeps nothing."""
+
+    traits = WallTraits(
+        exact_constant=True, exact_hydrostatic=True, exact_shear=True, exact_normal=True, conjugate=True,
+        dimensions=(2,),
+    )  # fmt: skip
+
+    def parts(self, context):
+        def seen(fluid, wall, separation, constants):
+            half = 0.5 * fluid.u + 0.0 * separation.x
+            return Seen(1.9 * fluid.pressure, half, 0.0, 0.0, half, 0.0, 0.0)
+
+        return WallParts(seen=seen)
+
+
+def test_promises_that_are_not_kept_are_found():
+    found = {}
+    for check in checks_of(Wrong()):
+        try:
+            check(Wrong())
+        except BrokenPromiseError as error:
+            found[check.name] = str(error)
+    assert set(found) == {"exact_constant", "exact_hydrostatic", "exact_shear", "exact_normal", "conjugate"}
+    assert "0 is exact" in found["exact_constant"]
+
+
+def test_a_treatment_that_does_not_compile_is_named():
+    @dataclass(frozen=True)
+    class Broken(WallTreatment):
+        traits = WallTraits(dimensions=(2,))
+
+        def parts(self, context):
+            return WallParts(seen=lambda fluid, wall, separation, constants: fluid.colour)
+
+    globals()["Broken"] = Broken
+    Broken.__qualname__ = "Broken"
+    with pytest.raises(BrokenPromiseError, match=r"Broken.*colour"):
+        checks_of(Broken())[0](Broken())
