@@ -1,4 +1,4 @@
-"""Errors of rules at a straight wall on the lattice, to three digits, and the checks of treatments that break a promise.
+"""Errors of rules at a straight wall on the lattice, and the checks of treatments that break a promise.
 
 The numbers depend on the kernel alone. They are those of an independent program that sums over the lattice.
 """
