@@ -4,17 +4,91 @@ The pressures of the ghosts keep the fluid away from the walls. But a single fas
 neighbours that push it back, can cross the surface by a fraction of a spacing, and no force would return it. Such a
 particle is put on the surface, and the component of its relative velocity into the wall is set to zero.
 
-With the nearest ghost of the first layer, its wall point w and normal n out of the fluid, the particle is behind the
-wall when s = (x - w).n > 0, and then
+Each ghost of the first layer stands for the plane of the wall at its wall point w with the normal n out of the fluid.
+A particle near the ghost is behind this plane when s = (x - w).n > 0, and then
 
     x := x - s n,    u := u - max[(u - u_wall).n, 0] n
+
+Beside a convex part of a solid, such as the tip of a wedge, a particle is behind the wall only if s > 0 for all planes
+there, and the one with the least s is used. In a concave corner, the particle is put back on each of the planes.
 
 Departs from the paper, which has no such rule. In a tank at rest it acts on no particle.
 """
 
+import math
+
 import numba
 
 from sphframe.compiled import LANES, local_array, squared_distance
+
+_NEAR = 1.25
+"""distance of a ghost over spacing within which it puts particles back"""
+_BESIDE = 3.0
+"""distance of a ghost over spacing within which it may show that a particle is in front of a convex part of a solid"""
+_FIRST_LAYER = 0.625
+"""depth over spacing up to which a ghost is of the first layer: it is about 1/2 there, and 3/2 in the next"""
+
+
+@numba.njit(inline="always")
+def _behind(rows, i, foot, normal, g, dim):  # type: ignore[no-untyped-def]
+    """Return how far row ``i`` lies behind the plane of the wall at the foot of ghost ``g``."""
+    depth = 0.0
+    for d in range(dim):
+        depth += (rows[i, d] - foot[g, d]) * normal[g, d]
+    return depth
+
+
+@numba.njit(inline="always")
+def _stands_for_wall(rows, i, ghost, foot, g, near, spacing, dim):  # type: ignore[no-untyped-def]
+    """Whether row ``ghost``, with wall point ``foot[g]``, is of the first layer and within ``near`` of row ``i``."""
+    if squared_distance(rows, ghost, rows, i, dim) > near * near:
+        return False
+    return squared_distance(rows, ghost, foot, g, dim) < (_FIRST_LAYER * spacing) ** 2
+
+
+@numba.njit(inline="always")
+def _convex(foot, normal, g, other, least, dim):  # type: ignore[no-untyped-def]
+    """Whether the feet of two ghosts lie on a convex part of a solid: each is behind the plane of the other."""
+    behind_one = 0.0
+    behind_other = 0.0
+    for d in range(dim):
+        behind_one += (foot[other, d] - foot[g, d]) * normal[g, d]
+        behind_other += (foot[g, d] - foot[other, d]) * normal[other, d]
+    return behind_one > least and behind_other > least
+
+
+@numba.njit(error_model="numpy")
+def _put_back_one(  # type: ignore[no-untyped-def]
+    rows, i, ghosts, fluid_count, columns, spacing, foot, normal, wall_velocity
+):
+    """Put row ``i`` back if it is behind the wall of any of the ``ghosts`` (rows) near it; return 1 if it was, or 0."""
+    least = 1e-12 * spacing
+    touched = 0
+    for ghost in ghosts:
+        g = ghost - fluid_count
+        if not _stands_for_wall(rows, i, ghost, foot, g, _NEAR * spacing, spacing, columns.dim):
+            continue
+        depth = _behind(rows, i, foot, normal, g, columns.dim)
+        if depth < least or depth > 0.5 * spacing:  # a step is much shorter: that deep, it is another wall
+            continue
+        for neighbour in ghosts:
+            other = neighbour - fluid_count
+            if not _stands_for_wall(rows, i, neighbour, foot, other, _BESIDE * spacing, spacing, columns.dim):
+                continue
+            behind_other = _behind(rows, i, foot, normal, other, columns.dim)
+            if behind_other < depth and _convex(foot, normal, g, other, 1e-6 * spacing, columns.dim):
+                depth = behind_other
+                g = other
+        if depth < least:
+            continue
+        touched = 1
+        into = 0.0
+        for d in range(columns.dim):
+            into += (rows[i, columns.u + d] - wall_velocity[g, d]) * normal[g, d]
+        for d in range(columns.dim):
+            rows[i, d] -= depth * normal[g, d]
+            rows[i, columns.u + d] -= max(into, 0.0) * normal[g, d]
+    return touched
 
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
@@ -28,38 +102,26 @@ def put_back(  # type: ignore[no-untyped-def]
     wall at each ghost, m/s.
     """
     contacts = 0
+    near = (_NEAR * spacing) ** 2
+    first_layer = (_FIRST_LAYER * spacing) ** 2
     for c in numba.prange(fluid_counts.shape[0]):
         if ghost_counts[c] == 0:
             continue
         first = c * LANES
         present = min(LANES, fluid_count - first)
         closest = local_array(LANES)
-        nearest = local_array(LANES)
         for a in range(LANES):
-            closest[a] = spacing * spacing
-            nearest[a] = -1.0
-        for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
+            closest[a] = math.inf
+        begin = fluid_counts[c]
+        end = begin + ghost_counts[c]
+        for k in range(begin, end):
             j = lists[c, k]
-            depth2 = squared_distance(rows, j, foot, j - fluid_count, columns.dim)
-            if depth2 > 0.375 * spacing * spacing:  # the depth is 1/2 spacing in the first layer, 3/2 in the next
-                continue
-            for a in range(present):
-                distance2 = squared_distance(rows, j, rows, first + a, columns.dim)
-                if distance2 < closest[a]:
-                    closest[a] = distance2
-                    nearest[a] = j - fluid_count
+            if squared_distance(rows, j, foot, j - fluid_count, columns.dim) < first_layer:
+                for a in range(present):
+                    closest[a] = min(closest[a], squared_distance(rows, j, rows, first + a, columns.dim))
         for a in range(present):
-            if nearest[a] >= 0.0:
-                i = first + a
-                g = int(nearest[a])
-                depth = 0.0
-                into = 0.0
-                for d in range(columns.dim):
-                    depth += (rows[i, d] - foot[g, d]) * normal[g, d]
-                    into += (rows[i, columns.u + d] - wall_velocity[g, d]) * normal[g, d]
-                if depth > 1e-12 * spacing:
-                    for d in range(columns.dim):
-                        rows[i, d] -= depth * normal[g, d]
-                        rows[i, columns.u + d] -= max(into, 0.0) * normal[g, d]
-                    contacts += 1
+            if closest[a] < near:
+                contacts += _put_back_one(
+                    rows, first + a, lists[c, begin:end], fluid_count, columns, spacing, foot, normal, wall_velocity
+                )
     return contacts

@@ -110,6 +110,42 @@ def test_water_over_a_half_circle():
         assert found["hump"][1] == pytest.approx(-downward, rel=0.01)
 
 
+def test_water_over_a_wedge():
+    """No particle beside the tip is taken for one behind the wedge's other face."""
+    rise, half, middle = 0.24, 0.27733, 0.6
+    corners = ((middle - half, 0), (middle, rise), (middle + half, 0))
+    tank = {"shape": "box", "lower": (0, 0), "upper": (2 * middle, 0.5)}
+    water = {"shape": "difference", "of": tank, "minus": [{"shape": "polygon", "points": corners}]}
+    wedge = polygon("wedge", *corners, closed=True)
+    pressure, forces, by_pressure = still([box(1.2, 0.8), wedge], [water], [("apex", corners[1]), ("base", corners[0])])
+    assert pressure == pytest.approx([RHO_G * (0.5 - rise), RHO_G * 0.5], rel=0.01)
+    for found in (forces, by_pressure):
+        assert found["wedge"][1] == pytest.approx(-RHO_G * half * (2 * 0.5 - rise), rel=0.01)
+
+
+def steps(rise, count):
+    """A staircase of steps that are as wide as high."""
+    corners = [(1.2 + rise * ((k + 1) // 2), rise * ((k + 2) // 2)) for k in range(2 * count)]
+    return polygon("tank", (0, 1.2), (0, 0), (1.2, 0), *corners, (1.2 + rise * count, 1.2))
+
+
+HALF = 0.3 * math.tan(math.radians(10))
+OBSTACLES = {
+    "a spike": [box(2, 1.2), polygon("spike", (1 - HALF, 0), (1, 0.3), (1 + HALF, 0), closed=True)],
+    "a cylinder": [box(2, 1.2), {"shape": "circle", "name": "cylinder", "centre": (1, 0.2), "radius": 0.1}],
+    "a staircase": [steps(0.05, 12)],
+}
+
+
+@pytest.mark.parametrize("obstacle", OBSTACLES)
+def test_no_water_of_a_dam_break_is_ever_behind_a_wall(obstacle):
+    column = {"shape": "box", "lower": (0, 0), "upper": (0.6, 0.6)}
+    simulation = Simulation(made(OBSTACLES[obstacle], [column], spacing=0.025), threads=1)
+    while simulation.time < 0.7:
+        simulation.advance()
+        assert simulation.step % 5 or not simulation.particles_outside()
+
+
 @pytest.mark.parametrize(
     ("wall", "message"),
     [
