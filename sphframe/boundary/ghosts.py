@@ -11,7 +11,8 @@ the tension policy of the case applies (p_0 is the case's ``lowest_pressure``)::
 
 with the smooth step S(t) = 3 t^2 - 2 t^3 of 0 <= t <= 1. phi_0 is the value of the sum where fluid fills the domain. On
 a level free surface phi = 1/2, whatever the distance from the wall, so that no ghost acts on fluid from above the
-surface. A pair of fluid and ghost then does not attract either: max(p_i + p_G, 0) in the momentum equation.
+surface. A pair of fluid and ghost then acts only where p_i + p_G > 0: it does not attract, has no viscosity, and a gap
+that opens does not lower the density, so that the fluid may leave the wall (:mod:`sphframe.physics.wall_pair`).
 
 The density follows from the inverse equation of state.
 """

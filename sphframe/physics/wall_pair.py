@@ -33,7 +33,11 @@ def wall_side(rows, row, walls, g, columns):  # type: ignore[no-untyped-def]
 
 
 def make_seen(walls: WallParts, *, attracts: bool) -> SeenFunction:
-    """Return what a pair sees: by the treatment's ``seen``, or what is assigned; not below 0 unless it ``attracts``."""
+    """Return what a pair sees: by the treatment's ``seen``, or what is assigned.
+
+    A pair that does not ``attract`` acts only where its pressure is positive. Else the fluid may leave the wall freely:
+    an opening gap does not lower the density, and there is no viscosity.
+    """
     own_viscous_velocity, friction = walls.own_viscous_velocity, walls.friction
 
     def as_assigned(fluid: FluidSide, wall: WallSide, separation: Separation, constants: Any) -> Seen:
@@ -49,11 +53,18 @@ def make_seen(walls: WallParts, *, attracts: bool) -> SeenFunction:
 
     def limited(fluid: FluidSide, wall: WallSide, separation: Separation, constants: Any) -> Seen:
         found = chosen(fluid, wall, separation, constants)
-        pressure_sum = found.pressure_sum if attracts else max(found.pressure_sum, 0.0)
-        if friction:
-            return Seen(
-                pressure_sum, found.u, found.v, found.w, found.viscous_u, found.viscous_v, found.viscous_w
-            )  # fmt: skip
-        return Seen(pressure_sum, found.u, found.v, found.w, fluid.u, fluid.v, fluid.w)
+        acts = attracts or found.pressure_sum > 0.0
+        opening = (found.u - fluid.u) * separation.x + (found.v - fluid.v) * separation.y
+        free = not acts and opening + (found.w - fluid.w) * separation.z > 0.0
+        rubs = acts and friction
+        return Seen(
+            found.pressure_sum if acts else 0.0,
+            fluid.u if free else found.u,
+            fluid.v if free else found.v,
+            fluid.w if free else found.w,
+            found.viscous_u if rubs else fluid.u,
+            found.viscous_v if rubs else fluid.v,
+            found.viscous_w if rubs else fluid.w,
+        )
 
     return limited

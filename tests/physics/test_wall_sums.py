@@ -52,9 +52,11 @@ def slow(cloud, walls, parts, attracts):
             if parts.seen is not None:
                 found = called(odd_seen, cloud, walls, fluid, ghost, g, x)
                 pressure_sum, u_g, viscous = found[0], np.array(found[1 : 1 + dim]), np.array(found[4 : 4 + dim])
-            if not attracts:
-                pressure_sum = max(pressure_sum, 0.0)
-            if not parts.friction:
+            acts = attracts or pressure_sum > 0.0
+            if not acts:
+                pressure_sum = 0.0
+                u_g = fluid[c.velocity] if (u_g - fluid[c.velocity]) @ x > 0.0 else u_g
+            if not (acts and parts.friction):
                 viscous = fluid[c.velocity]
             grad = cloud.grad_kernel(x[None])[0] * ghost[c.volume]
             density_rate[i] -= fluid[c.density] * (u_g - fluid[c.velocity]) @ grad
