@@ -5,11 +5,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphframe.arrays import Array
+from sphframe.arrays import Array, BoolArray
 from sphframe.boundary.corners import Corners, Shares
 from sphframe.boundary.movement import move_ghosts
-from sphframe.geometry import Shape, Wall, ghosts_of, rotation_matrix, row_of, wall_groups
+from sphframe.boundary.sides import WallSides
+from sphframe.geometry import Shape, Wall, ghosts_of, rotation_matrix, row_of, sides_of, wall_groups
 from sphframe.interfaces import EvaluationPoint, Motion, RigidBody, Status
+from sphframe.neighbours import Sight
 
 _STATE = (
     "position", "mirror", "foot", "normal", "reflection", "velocity", "acceleration", "driving", "statuses",
@@ -58,6 +60,7 @@ class Boundary:
     statuses: (g,) :class:`Status` of the last filling.
     wall_state: (g,) what the treatment advances; ``full`` (g,) filling of the evaluation point within the fluid.
     arrays: what compiled loops read of the ghosts.
+    sides: the sides of walls, where a wall is thin; else None.
     """
 
     def __init__(
@@ -74,8 +77,10 @@ class Boundary:
     ) -> None:
         groups = wall_groups(tuple(walls), fluid, spacing)
         self.groups = [group for _, group in groups]
+        layers = int(np.ceil(support / spacing - 1e-9))
+        sides = sides_of(self.groups, spacing, layers)
         if row_spacing is None:
-            drawn = ghosts_of(self.groups, spacing, int(np.ceil(support / spacing - 1e-9)))
+            drawn = ghosts_of(self.groups, spacing, layers)
         else:
             drawn = row_of(self.groups, row_spacing, spacing)
         self.dim = drawn.position.shape[1]
@@ -88,6 +93,7 @@ class Boundary:
         self.centres = np.zeros((len(names), self.dim))
         for k, body in enumerate(self.bodies.values()):
             self.centres[k, : len(body.centre)] = body.centre
+        self.sides = None if sides is None else WallSides(sides[0], self.group_body[sides[1]], self.centres, spacing)
         self._corners = Corners(self.groups, drawn, self.wall_body, self.centres, 1.5 * support)
         self._drawn = drawn
         self._drawn_reflection = np.tile(-np.eye(self.dim), (len(self.wall), 1, 1)) if no_slip else drawn.reflection
@@ -118,6 +124,16 @@ class Boundary:
         return len(self.wall)
 
     @property
+    def sight(self) -> Sight | None:
+        """What hides particles and ghosts; None where no wall is thin."""
+        return None if self.sides is None else self.sides.sight
+
+    @property
+    def passable(self) -> BoolArray:
+        """Whether each ghost (g,) lies beyond the end of a thin wall; one entry where no wall is thin."""
+        return np.zeros(1, dtype=np.bool_) if self.sides is None else self.sides.passable
+
+    @property
     def speed(self) -> float:
         """Largest speed of a wall, m/s."""
         return float(np.sqrt(np.square(self.velocity).sum(axis=1).max(initial=0.0))) if self.bodies else 0.0
@@ -139,6 +155,8 @@ class Boundary:
             )  # fmt: skip
             if self.points is not self.position:
                 np.subtract(self.position, self.points, out=self.lifts)
+            if self.sides is not None:
+                self.sides.move(motions)
         np.multiply(self.acceleration, -density, out=self.driving)
         self.driving += driving_force
         rows[:, : self.dim] = self.position
@@ -149,10 +167,13 @@ class Boundary:
 
     def state(self) -> dict[str, Array]:
         """Return copies of all arrays that change during a run, by name."""
-        return {name: getattr(self, name).copy() for name in _STATE}
+        state = {name: getattr(self, name).copy() for name in _STATE}
+        return state if self.sides is None else {**state, "sides": self.sides.sight.ends.copy()}
 
     def restore(self, state: Mapping[str, Array]) -> None:
         """Continue from what :meth:`state` returned."""
         for name in _STATE:
             getattr(self, name)[:] = state[name]
+        if self.sides is not None:
+            self.sides.sight.ends[:] = state["sides"]
         np.subtract(self.position, self.points, out=self.lifts)

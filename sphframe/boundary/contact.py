@@ -12,19 +12,31 @@ A particle near the ghost is behind this plane when s = (x - w).n > 0, and then
 Beside a convex part of a solid, such as the tip of a wedge, a particle is behind the wall only if s > 0 for all planes
 there, and the one with the least s is used. In a concave corner, the particle is put back on each of the planes.
 
+Where walls are thin, only ghosts count that the particle sees, beside their wall points; it is put a little inside the
+surface, so that its side of the wall remains known.
+
 Departs from the paper, which has no such rule. In a tank at rest it acts on no particle.
 """
 
 import math
 
 import numba
+import numpy as np
 
 from sphframe.compiled import LANES, local_array, squared_distance
+from sphframe.compiled.stand_ins import MASKED
+from sphframe.neighbours.sight import WHOLE
+
+HALF = WHOLE // 2
 
 _NEAR = 1.25
 """distance of a ghost over spacing within which it puts particles back"""
 _BESIDE = 3.0
 """distance of a ghost over spacing within which it may show that a particle is in front of a convex part of a solid"""
+_ALONG = 0.75
+"""distance along a thin wall, over spacing, of a ghost's wall point within which it stands for the wall"""
+_INSIDE = 1e-3
+"""distance over spacing from a thin wall at which particles are put back"""
 _FIRST_LAYER = 0.625
 """depth over spacing up to which a ghost is of the first layer: it is about 1/2 there, and 3/2 in the next"""
 
@@ -59,9 +71,12 @@ def _convex(foot, normal, g, other, least, dim):  # type: ignore[no-untyped-def]
 
 @numba.njit(error_model="numpy")
 def _put_back_one(  # type: ignore[no-untyped-def]
-    rows, i, ghosts, fluid_count, columns, spacing, foot, normal, wall_velocity
+    rows, i, ghosts, fluid_count, columns, spacing, foot, normal, wall_velocity, inside
 ):
-    """Put row ``i`` back if it is behind the wall of any of the ``ghosts`` (rows) near it; return 1 if it was, or 0."""
+    """Put row ``i`` back if it is behind the wall of any of the ``ghosts`` (rows) near it; return 1 if it was, or 0.
+
+    It is put at the distance ``inside`` from the wall, m.
+    """
     least = 1e-12 * spacing
     touched = 0
     for ghost in ghosts:
@@ -86,20 +101,39 @@ def _put_back_one(  # type: ignore[no-untyped-def]
         for d in range(columns.dim):
             into += (rows[i, columns.u + d] - wall_velocity[g, d]) * normal[g, d]
         for d in range(columns.dim):
-            rows[i, d] -= depth * normal[g, d]
+            rows[i, d] -= (depth + inside) * normal[g, d]
             rows[i, columns.u + d] -= max(into, 0.0) * normal[g, d]
     return touched
 
 
-@numba.njit(parallel=True, cache=True, error_model="numpy")
-def put_back(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, fluid_counts, ghost_counts, columns, spacing, foot, normal, wall_velocity
+@numba.njit(error_model="numpy")
+def _ghosts_beside(  # type: ignore[no-untyped-def]
+    rows, i, ghosts, shares, passable, fluid_count, columns, spacing, foot, normal
 ):
+    """Return those of the ``ghosts`` (rows) beside whose wall points row ``i`` lies, and which it sees."""
+    kept = np.empty(ghosts.shape[0], ghosts.dtype)
+    count = 0
+    for k in range(ghosts.shape[0]):
+        g = ghosts[k] - fluid_count
+        if shares[k] >= HALF and not passable[g]:
+            depth = _behind(rows, i, foot, normal, g, columns.dim)
+            along2 = squared_distance(rows, i, foot, g, columns.dim) - depth * depth
+            if along2 < (_ALONG * spacing) ** 2:
+                kept[count] = ghosts[k]
+                count += 1
+    return kept[:count]
+
+
+def put_back(  # type: ignore[no-untyped-def]
+    rows, fluid_count, lists, fluid_counts, ghost_counts, shares, passable, columns, spacing, foot, normal,
+    wall_velocity,
+):  # fmt: skip
     """Put the particles behind a wall back on its surface, in ``rows``; return their number.
 
     A row of ``lists`` is the common list of LANES particles; ``columns``: :class:`Columns` of ``rows``; ``foot`` and
     ``normal`` (g, dim): wall point, m, and unit normal out of the fluid; ``wall_velocity`` (g, dim): velocity of the
-    wall at each ghost, m/s.
+    wall at each ghost, m/s. With MASKED, ``shares`` are those in which the particles see the entries of the lists, and
+    ``passable`` (g,) are ghosts beyond the end of a thin wall.
     """
     contacts = 0
     near = (_NEAR * spacing) ** 2
@@ -121,7 +155,15 @@ def put_back(  # type: ignore[no-untyped-def]
                     closest[a] = min(closest[a], squared_distance(rows, j, rows, first + a, columns.dim))
         for a in range(present):
             if closest[a] < near:
+                i = first + a
+                ghosts = lists[c, begin:end]
+                inside = 0.0
+                if MASKED:
+                    inside = _INSIDE * spacing
+                    ghosts = _ghosts_beside(
+                        rows, i, ghosts, shares[c, begin:end, a], passable, fluid_count, columns, spacing, foot, normal
+                    )
                 contacts += _put_back_one(
-                    rows, first + a, lists[c, begin:end], fluid_count, columns, spacing, foot, normal, wall_velocity
+                    rows, i, ghosts, fluid_count, columns, spacing, foot, normal, wall_velocity, inside
                 )
     return contacts

@@ -40,6 +40,8 @@ PRESSURE: StateFunction = _not_bound
 """the equation of state, p(rho, rho0, c0)"""
 DENSITY: StateFunction = _not_bound
 """its inverse, rho(p, rho0, c0)"""
+MASKED = False
+"""whether thin walls hide neighbours, wholly or in part (:mod:`sphframe.neighbours.sight`)"""
 WEIGHTS: WeightsFunction = _not_bound
 """weights of the interpolation method at one evaluation point"""
 FALLBACK: WeightsFunction = _not_bound

@@ -11,8 +11,8 @@ from sphframe.geometry.frames import (
     turned,
     turning_velocities,
 )
-from sphframe.geometry.ghosts import GhostPoints, Panels, WallGroup
-from sphframe.geometry.groups import ghosts_of, panels_of, row_of, wall_groups
+from sphframe.geometry.ghosts import GhostPoints, Panels, Sides, WallGroup
+from sphframe.geometry.groups import ghosts_of, panels_of, row_of, sides_of, wall_groups
 from sphframe.geometry.regions import (
     BoxRegion,
     CircleRegion,
@@ -78,6 +78,7 @@ __all__ = [
     "Polyline",
     "Region",
     "Shape",
+    "Sides",
     "Sphere",
     "SphereRegion",
     "Union",
@@ -93,6 +94,7 @@ __all__ = [
     "rotation_matrix",
     "row_of",
     "sampled",
+    "sides_of",
     "solid_of",
     "solid_within",
     "to_body_frame",

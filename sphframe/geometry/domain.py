@@ -2,7 +2,8 @@
 
 Walls are lines without direction. They cut the plane into faces. The fluid at the start tells which faces are wet; a
 face without fluid belongs to the domain too if the fluid can flow into it above the rim of a wall. Ends of walls that
-meet nothing are continued by open edges: along the wall, then upwards. Nothing bounds the fluid there.
+meet nothing are continued by open edges: along the wall, then upwards. Nothing bounds the fluid there. A line that is
+wet on both sides has an edge on each of them.
 """
 
 from collections.abc import Mapping, Sequence
@@ -22,6 +23,7 @@ SHARP = np.radians(30.0)
 """smallest change of direction that makes a corner; smaller ones approximate a curve"""
 _SAME = 1e-6
 """share of a particle spacing below which two points are the same"""
+_NO_SIDES = np.zeros((0, 2, 2))
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,7 @@ class Domain:
 
     Attributes
     ----------
-    region: the domain, with open edges continued far beyond the walls.
+    region: the domain, with open edges continued far beyond the walls; it contains lines that are wet on both sides.
     start, end: (m, 2) ends of the edges; ``wall`` (m,) index of their walls, ``OPEN`` where there is none.
     before, after: (m,) edges that share the start and the end of each edge.
     """
@@ -62,6 +64,13 @@ class Domain:
         """Whether the boundary has a corner between two edges of walls at the start (m,) of each edge."""
         return np.asarray((np.abs(self.turn) > SHARP) & (self.wall != OPEN) & (self.wall[self.before] != OPEN))
 
+    @cached_property
+    def two_sided(self) -> BoolArray:
+        """Whether each edge (m,) is a side of a line that is wet on both sides."""
+        pairs = {(*a, *b) for a, b in zip(self.start.tolist(), self.end.tolist(), strict=True)}
+        back = np.hstack([self.end, self.start]).tolist()
+        return np.array([tuple(edge) in pairs for edge in back], dtype=np.bool_)
+
     def feet(self, points: Array) -> tuple[Array, IntArray]:
         """Return the nearest points (n, 2) of the boundary to ``points`` (n, 2), and their edges (n,)."""
         order = self._tree.query_nearest(shapely.points(points), all_matches=False)
@@ -89,20 +98,27 @@ def turning(before: Array, after: Array) -> Array:
 
 
 def fluid_domain(
-    walls: Mapping[str, Sequence[Array]], fluid: shapely.Geometry, spacing: float, *, one_sided: Sequence[int] = ()
+    walls: Mapping[str, Sequence[Array]],
+    fluid: shapely.Geometry,
+    spacing: float,
+    *,
+    one_sided: Sequence[int] = (),
+    two_sided: Sequence[int] = (),
 ) -> Domain:
     """Return the domain within ``walls`` that the ``fluid`` can reach.
 
     Parameters
     ----------
     walls: for the name of each wall its polylines (k, 2), m; the ends of a closed one are equal.
-    fluid: region of the fluid at the start, m.
+    fluid: region of the fluid at the start, m, or a collection of regions; walls may run between two regions.
     spacing: particle spacing, m. Ends that are closer than a millionth of it are joined.
     one_sided: indices of walls that are wet on one side only, although the other side can be reached.
+    two_sided: indices of walls that may be wet on both sides.
 
     Raises
     ------
-    InputError: when a wall runs through the fluid, or fluid can reach both of its sides; with its name and the place.
+    InputError: when a wall runs through the fluid, or fluid can reach both of its sides though they are not
+        ``two_sided``; with its name and the place.
     """
     lines = _joined([LineString(line) for wall in walls.values() for line in wall], _SAME * spacing)
     owners = np.array([index for index, wall in enumerate(walls.values()) for _ in wall])
@@ -114,23 +130,46 @@ def fluid_domain(
     rims, bars = _open_edges(net, single, frame, 8.0 * spacing)
     edges = shapely.unary_union([net, frame.boundary, *rims, *bars])
     faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(edges)))
-    core = shapely.buffer(fluid, -0.25 * spacing)  # a sliver on the other side of a wall does not count
-    core = fluid if core.is_empty else core
+    core = shapely.union_all(shapely.buffer(shapely.get_parts(fluid), -0.25 * spacing))
+    core = fluid if core.is_empty else core  # a sliver on the other side of a wall does not count
     wet = shapely.area(shapely.intersection(faces, core)) > 1e-6 * min(core.area, spacing**2)
     region = shapely.union_all(faces[_reached(faces, wet, shapely.union_all(rims), frame)])
-    both = shapely.difference(shapely.intersection(net, region), shapely.buffer(region.boundary, _SAME * spacing))
-    if shapely.length(both) > spacing:
-        through = shapely.intersection(both, core)
-        place = shapely.point_on_surface(both if through.is_empty else through)
-        wall = f"wall {list(walls)[owners[shapely.STRtree(lines).nearest(place)]]!r}"
-        at = f"at ({place.x:.6g}, {place.y:.6g})"
-        if not through.is_empty:
-            raise InputError(f"{wall} runs through the fluid {at}: draw the fluid within the walls")
-        raise InputError(
-            f"{wall} has fluid on both sides, or fluid that can flow to its other side, {at}: draw a closed wall around"
-            " what is solid, or set one_sided = true for a wall whose back stays dry"
-        )
-    return _with_edges(region, lines, owners, _SAME * spacing)
+    sides = _both_sides(edges, net, region, _SAME * spacing)
+    domain = domain_of(region, lines, owners, _SAME * spacing, sides)
+    _check_two_sided(domain, list(walls), core, two_sided, spacing)
+    return domain
+
+
+def _both_sides(edges: shapely.Geometry, net: shapely.Geometry, region: shapely.Geometry, closest: float) -> Array:
+    """Return the segments (k, 2, 2) of the ``edges`` that lie on walls within the ``region``."""
+    within = shapely.difference(shapely.intersection(net, region), shapely.buffer(region.boundary, closest))
+    if shapely.length(within) <= closest:
+        return _NO_SIDES
+    pieces = [np.stack([line[:-1], line[1:]], axis=1) for line in map(shapely.get_coordinates, edges.geoms)]
+    segments = np.concatenate(pieces)
+    distance = shapely.distance(within, shapely.points(segments.mean(axis=1)))
+    return np.asarray(segments[distance <= closest])
+
+
+def _check_two_sided(
+    domain: Domain, names: list[str], core: shapely.Geometry, two_sided: Sequence[int], spacing: float
+) -> None:
+    edges = np.flatnonzero(domain.two_sided)
+    sides = shapely.linestrings(np.stack([domain.start, domain.end], axis=1)[edges])
+    crossing = shapely.length(shapely.intersection(sides, core)) > _SAME * spacing
+    wrong = crossing | ~np.isin(domain.wall[edges], two_sided)
+    if np.sum(shapely.length(sides[wrong])) <= spacing:
+        return
+    k = int(np.argmax(crossing) if np.any(crossing) else np.argmax(wrong))
+    place = shapely.point_on_surface(shapely.intersection(sides[k], core) if crossing[k] else sides[k])
+    at = f"wall {names[domain.wall[edges[k]]]!r}", f"at ({place.x:.6g}, {place.y:.6g})"
+    if crossing[k]:
+        raise InputError(f"{at[0]} runs through the fluid {at[1]}: draw the fluid within the walls, up to their lines")
+    raise InputError(
+        f"{at[0]} has fluid on both sides, or fluid that can flow to its other side, {at[1]}: draw a closed wall around"
+        " what is solid; draw a wall without thickness as a polyline, an arc or a polygon of two points; or set"
+        " one_sided = true for a wall whose back stays dry"
+    )
 
 
 def _joined(lines: list[LineString], closest: float) -> list[LineString]:
@@ -195,8 +234,13 @@ def _reached(faces: Array, wet: BoolArray, rims: shapely.Geometry, frame: Polygo
     return reached
 
 
-def _with_edges(region: shapely.Geometry, lines: list[LineString], owners: IntArray, closest: float) -> Domain:
-    """Return the domain of a ``region``, whose edges on the ``lines`` are those of the walls ``owners``."""
+def domain_of(
+    region: shapely.Geometry, lines: Sequence[LineString], owners: IntArray, closest: float, sides: Array = _NO_SIDES
+) -> Domain:
+    """Return the domain of a ``region``, whose edges on the ``lines`` are those of the walls ``owners``.
+
+    Each of the ``sides`` (k, 2, 2) is an edge in both directions.
+    """
     starts, ends, before, after = [], [], [], []
     count = 0
     for polygon in shapely.get_parts(region):
@@ -209,10 +253,33 @@ def _with_edges(region: shapely.Geometry, lines: list[LineString], owners: IntAr
             before.append(np.roll(places, 1))
             after.append(np.roll(places, -1))
             count += number
-    start, end = np.vstack(starts), np.vstack(ends)
+    start, end = np.vstack([*starts, sides[:, 0], sides[:, 1]]), np.vstack([*ends, sides[:, 1], sides[:, 0]])
+    count = len(start)
     tree = shapely.STRtree(lines)
     edge, line = tree.query_nearest(shapely.points(0.5 * (start + end)), max_distance=closest)
     wall = np.full(count, len(owners))
     np.minimum.at(wall, edge, owners[line])
     wall[wall == len(owners)] = OPEN
+    if len(sides):
+        return Domain(region, start, end, wall, *_neighbours(start, end))
     return Domain(region, start, end, wall, np.concatenate(before), np.concatenate(after))
+
+
+def _neighbours(start: Array, end: Array) -> tuple[IntArray, IntArray]:
+    """Return the edges before and after each edge, from ``start`` (m, 2) to ``end`` (m, 2), with the fluid on its left.
+
+    Where several edges start from one point, the next one is the first that is met clockwise from the edge backwards.
+    """
+    leaving: dict[tuple[float, ...], list[int]] = {}
+    for k, point in enumerate(start.tolist()):
+        leaving.setdefault(tuple(point), []).append(k)
+    angle = np.arctan2(*(end - start).T[::-1])
+    after = np.empty(len(start), np.int64)
+    for k, point in enumerate(end.tolist()):
+        others = np.array(leaving[tuple(point)])
+        turned = (angle[k] + np.pi - angle[others]) % (2.0 * np.pi)
+        turned[turned < 1e-9] = 2.0 * np.pi  # back along the other side of the same line
+        after[k] = others[np.argmin(turned)]
+    before = np.empty_like(after)
+    before[after] = np.arange(len(start))
+    return before, after

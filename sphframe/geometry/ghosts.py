@@ -18,8 +18,9 @@ import numpy as np
 import shapely
 
 from sphframe.arrays import Array, BoolArray, IntArray
-from sphframe.geometry.domain import OPEN, fluid_domain
-from sphframe.geometry.layers import LONGEST_MITRE, layer_points
+from sphframe.geometry.charts import BEYOND, Chart, back_to_back, charts_of, seen_mirrors, thin_edges, thin_solid
+from sphframe.geometry.domain import OPEN, Domain, fluid_domain
+from sphframe.geometry.layers import layer_points
 from sphframe.geometry.shapes import CHORD
 from sphframe.geometry.walls import Wall
 
@@ -49,12 +50,33 @@ class GhostPoints(NamedTuple):
     other_dual: Array
 
 
+class Sides(NamedTuple):
+    """Sides of plane walls, which hide what is behind them (:mod:`sphframe.geometry.charts`).
+
+    ``ends`` (k, 4): x, y of their starts and ends, m, with the fluid on the left; ``tips`` (k, 2): 1 where these
+    are ends of lines, -1 where they are corners between charts, else 0; the ``chart`` (k,) of each side, and whether it
+    is ``thin`` (k,). ``ghost_chart`` (g,) and ``kind`` (g,) are those of the ghosts.
+    """
+
+    ends: Array
+    tips: IntArray
+    chart: IntArray
+    thin: BoolArray
+    ghost_chart: IntArray
+    kind: IntArray
+
+
 class Panels(NamedTuple):
     """Panel ``centre`` (k, dim), m; ``area`` (k, dim), the area vector out of the fluid, m^(dim-1); ``wall`` (k,)."""
 
     centre: Array
     area: Array
     wall: IntArray
+
+    def in_front(self, distance: float) -> "Panels":
+        """Return the panels with their centres at a ``distance`` (m) from the wall, within the fluid."""
+        size = np.linalg.norm(self.area, axis=1, keepdims=True)
+        return self._replace(centre=self.centre - distance * self.area / size)
 
 
 class End(NamedTuple):
@@ -87,7 +109,7 @@ class WallGroup(ABC):
 
     @abstractmethod
     def thin_place(self, least: float) -> tuple[float, ...] | None:
-        """Return a point, m, where the solid within walls is thinner than ``least`` (m); None if there is none."""
+        """Return a point, m, where a solid thinner than ``least`` (m) cannot hold fluid; None if there is none."""
 
 
 @final
@@ -105,13 +127,61 @@ class PlaneWalls(WallGroup):
 
     def __init__(self, walls: dict[int, Wall], fluid: shapely.Geometry, spacing: float) -> None:
         self._indices = np.array([*walls, NONE])  # the last stands for OPEN
+        self._spacing = spacing
         single = [k for k, wall in enumerate(walls.values()) if wall.one_sided]
+        lines = [k for k, wall in enumerate(walls.values()) if wall.is_line and not wall.one_sided]
         outlines = {wall.name: wall.outline(CHORD * spacing) for wall in walls.values()}
-        self.domain = fluid_domain(outlines, fluid, spacing, one_sided=single)
+        self.domain = fluid_domain(outlines, fluid, spacing, one_sided=single, two_sided=lines)
+        self._cut: dict[int, tuple[BoolArray, list[Chart]]] = {}
+
+    def _charts(self, layers: int) -> tuple[BoolArray, list[Chart]]:
+        """Return which edges are thin, and the charts; no charts where no wall is thinner than the layers."""
+        if layers not in self._cut:
+            domain, reach = self.domain, (layers - 0.3) * self._spacing
+            thin = np.zeros(len(domain.wall), dtype=np.bool_)
+            if np.any(domain.two_sided) or thin_solid(domain.region, reach) is not None:
+                thin = thin_edges(domain, reach)
+            self._cut[layers] = thin, charts_of(domain, thin, self._spacing, layers) if np.any(thin) else []
+        return self._cut[layers]
 
     def ghosts(self, spacing: float, layers: int) -> GhostPoints:
         """Return ghosts in layers at (k + 1/2) ``spacing`` (m) behind the walls."""
-        domain = self.domain
+        return self._made(spacing, layers)[0]
+
+    def sides(self, spacing: float, layers: int) -> Sides:
+        """Return the sides of the walls, and of the ghosts that :meth:`ghosts` returns."""
+        _, ghost_chart, kind = self._made(spacing, layers)
+        thin, charts = self._charts(layers)
+        walls = [np.flatnonzero(self.domain.wall != OPEN)] if not charts else [chart.edges for chart in charts]
+        edges, number = np.concatenate(walls), np.repeat(np.arange(len(walls)), [len(own) for own in walls])
+        ends = np.hstack([self.domain.start, self.domain.end])[edges]
+        tips = np.zeros((len(ends), 2), np.int64)
+        for own, chart in enumerate(charts):
+            tips[np.flatnonzero(number == own)[[0, -1]], [0, 1]] = chart.tips
+        return Sides(ends, tips, number, thin[edges], ghost_chart, kind)
+
+    def _made(self, spacing: float, layers: int) -> tuple[GhostPoints, IntArray, IntArray]:
+        """Return the ghosts, their charts (g,) and the kinds (g,) of their walls."""
+        charts = self._charts(layers)[1]
+        if not charts:
+            ghosts, edge = self._ghosts_behind(self.domain, spacing, layers)
+            thick = np.zeros(len(edge), np.int64)
+            return ghosts._replace(mirror=self._inside(ghosts.mirror, spacing)), thick, thick
+        parts, numbers, kinds = [], [], []
+        for number, chart in enumerate(charts):
+            ghosts, edge = self._ghosts_behind(chart.strip, spacing, layers)
+            kind = chart.kind[edge]
+            within = (kind != BEYOND) | (np.einsum("ij,ij->i", ghosts.normal, chart.strip.normal[edge]) > 1.0 - 1e-6)
+            ghosts, kind = GhostPoints(*(part[within] for part in ghosts)), kind[within]
+            mirror, reflection = seen_mirrors(self.domain, ghosts.foot, ghosts.mirror, ghosts.reflection)
+            parts.append(ghosts._replace(mirror=self._inside(mirror, spacing), reflection=reflection))
+            numbers.append(np.full(len(kind), number))
+            kinds.append(kind)
+        together = GhostPoints(*map(np.concatenate, zip(*parts, strict=True)))
+        return together, np.concatenate(numbers), np.concatenate(kinds)
+
+    def _ghosts_behind(self, domain: Domain, spacing: float, layers: int) -> tuple[GhostPoints, IntArray]:
+        """Return ghosts behind the walls of ``domain``, and the edge (g,) nearest to each."""
         position, volume, foot, edge = layer_points(domain, spacing, layers)
         offset = position - foot
         depth = np.hypot(*offset.T)[:, None]
@@ -131,9 +201,9 @@ class PlaneWalls(WallGroup):
         first, second = domain.normal[earlier], domain.normal[later]
         across = np.stack([-first[:, 1], first[:, 0]], axis=1)
         dual = across / np.where(shared, np.einsum("ij,ij->i", across, second)[:, None], 1.0)
-        return GhostPoints(
+        ghosts = GhostPoints(
             position,
-            self._inside(2.0 * foot - position, spacing),
+            2.0 * foot - position,
             foot,
             normal,
             reflection,
@@ -143,6 +213,7 @@ class PlaneWalls(WallGroup):
             np.where(shared, second, 0.0),
             np.where(shared, dual, 0.0),
         )
+        return ghosts, edge
 
     def _inside(self, mirror: Array, spacing: float) -> Array:
         """Move mirror points (g, 2) that lie behind a wall, or too near to one, half a spacing inside the fluid."""
@@ -167,21 +238,12 @@ class PlaneWalls(WallGroup):
         return Panels(centre, area, self._indices[domain.wall[walled][place]])
 
     def thin_place(self, least: float) -> tuple[float, ...] | None:
-        """Return a point, m, where the solid within walls is thinner than ``least`` (m); None if there is none.
+        """Return a point, m, where a solid thinner than ``least`` (m) cannot hold fluid; None if there is none.
 
-        A solid is thick enough where a square of this width fits; a sharp edge belongs to what is behind it.
+        That is where it has no corner between its sides, so that they are not charts of their own.
         """
-        solid = shapely.difference(
-            shapely.buffer(self.domain.region, 2.0 * least, join_style="mitre"), self.domain.region
-        )
-        core = shapely.buffer(solid, -0.499 * least, join_style="mitre", mitre_limit=LONGEST_MITRE)
-        thick = shapely.buffer(core, 0.5 * least, join_style="mitre", mitre_limit=LONGEST_MITRE)
-        thin = shapely.get_parts(shapely.difference(solid, thick))
-        thin = thin[shapely.area(thin) > 0.01 * least**2]
-        if not len(thin):
-            return None
-        place = shapely.point_on_surface(thin[0])
-        return place.x, place.y
+        charts = self._charts(int(np.ceil(least / self._spacing - 1e-9)))[1]
+        return next((place for chart in charts if (place := back_to_back(self.domain, chart, least))), None)
 
     def ends(self) -> list[End]:
         """Return the ends of walls from which the boundary of the domain continues in the open."""

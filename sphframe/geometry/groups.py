@@ -5,8 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 
+from sphframe.arrays import IntArray
 from sphframe.geometry.box_walls import BoxWalls
-from sphframe.geometry.ghosts import NONE, GhostPoints, Panels, PlaneWalls, WallGroup
+from sphframe.geometry.ghosts import NONE, GhostPoints, Panels, PlaneWalls, Sides, WallGroup
 from sphframe.geometry.shapes import CHORD, Shape
 from sphframe.geometry.walls import BoxWall, Wall
 
@@ -26,7 +27,7 @@ def wall_groups(walls: tuple[Wall, ...], fluid: Sequence[Shape], spacing: float)
     """
     if walls[0].dimension == 3:
         return [(wall.body, BoxWalls(k, wall)) for k, wall in enumerate(walls) if isinstance(wall, BoxWall)]
-    whole = shapely.union_all([region.geometry(CHORD * spacing) for region in fluid])
+    whole = shapely.geometrycollections([region.geometry(CHORD * spacing) for region in fluid])
     bodies = dict.fromkeys(wall.body for wall in walls)
     return [
         (body, PlaneWalls({k: wall for k, wall in enumerate(walls) if wall.body == body}, whole, spacing))
@@ -38,6 +39,19 @@ def ghosts_of(groups: Sequence[WallGroup], spacing: float, layers: int) -> Ghost
     """Return the ghosts of all ``groups``; see :meth:`WallGroup.ghosts`."""
     parts = [group.ghosts(spacing, layers) for group in groups]
     return GhostPoints(*map(np.concatenate, zip(*parts, strict=True)))
+
+
+def sides_of(groups: Sequence[WallGroup], spacing: float, layers: int) -> tuple[Sides, IntArray] | None:
+    """Return the sides of all ``groups`` and the group of each; None where no wall is thin, and in 3-D."""
+    parts = [group.sides(spacing, layers) for group in groups if isinstance(group, PlaneWalls)]
+    if not any(np.any(part.thin) for part in parts):
+        return None
+    first = 0
+    for k, part in enumerate(parts):
+        parts[k] = part._replace(chart=part.chart + first, ghost_chart=part.ghost_chart + first)
+        first += int(part.chart.max(initial=-1)) + 1
+    together = Sides(*map(np.concatenate, zip(*parts, strict=True)))
+    return together, np.repeat(np.arange(len(parts)), [len(part.ends) for part in parts])
 
 
 def panels_of(groups: Sequence[WallGroup], spacing: float) -> Panels:

@@ -27,8 +27,8 @@ from sphframe.geometry.shapes import (
 class Drawn(BaseModel):
     """What all walls have beside their shape.
 
-    The fluid at the start tells which side of a wall is wet. A wall that ends in the open and that the fluid could
-    flow round is wet on both sides, and ``one_sided`` says that its back stays dry, as that of a piston does.
+    The fluid at the start tells which side of a wall is wet. A line that ends in the open and that the fluid could
+    flow round is wet on both sides; ``one_sided`` says that its back stays dry, as that of a piston does.
     """
 
     name: str = "wall"
@@ -47,6 +47,12 @@ class ShapeWall(Drawn):
         geometry = shape.geometry(shape.coarse if tolerance is None else tolerance)
         lines = [geometry] if isinstance(geometry, LineString) else shapely.get_rings(shapely.get_parts(geometry))
         return [shapely.get_coordinates(line) for line in lines]
+
+    @property
+    def is_line(self) -> bool:
+        """Whether it is an open line, which may be wet on both sides."""
+        lines = self.outline()
+        return len(lines) == 1 and not np.array_equal(lines[0][0], lines[0][-1])
 
 
 class PolylineWall(Polyline, ShapeWall):
@@ -101,6 +107,11 @@ class PolygonWall(Drawn):
         """Dimension of space."""
         return 2
 
+    @property
+    def is_line(self) -> bool:
+        """Whether it is a straight line, which may be wet on both sides; more points bound a solid."""
+        return len(self.points) == 2
+
     def outline(self, tolerance: float | None = None) -> list[Array]:
         """Return the polyline (k, 2) of the wall, m."""
         return [np.array([*self.points, *self.points[: int(self.closed)]], dtype=np.float64)]
@@ -127,6 +138,11 @@ class BoxWall(Drawn):
     def dimension(self) -> int:
         """Dimension of space."""
         return len(self.lower)
+
+    @property
+    def is_line(self) -> bool:
+        """Whether it may be wet on both sides; a box contains its fluid."""
+        return False
 
     def outline(self, tolerance: float | None = None) -> list[Array]:
         """Return polylines (k, dim), m, of the edges of the box, in 3-D without those between two open faces."""

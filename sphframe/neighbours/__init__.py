@@ -3,5 +3,6 @@
 from sphframe.neighbours.cells import put_in_order
 from sphframe.neighbours.lists import NeighbourLists
 from sphframe.neighbours.motion import LargestMotion
+from sphframe.neighbours.sight import Sight, share_points
 
-__all__ = ["LargestMotion", "NeighbourLists", "put_in_order"]
+__all__ = ["LargestMotion", "NeighbourLists", "Sight", "put_in_order", "share_points"]

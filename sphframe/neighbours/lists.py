@@ -18,9 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sphframe.arrays import Array, IntArray
+from sphframe.compiled import LANES
 from sphframe.neighbours.approach import relative_displacement
 from sphframe.neighbours.cells import Grid, bounding_box, cell_number, grid_around, row_number, sort_by_cell
 from sphframe.neighbours.motion import LargestMotion, largest_motion, largest_wall_displacement
+from sphframe.neighbours.sight import Sight, keep_seen, share_lists
 
 _PARTS = 2
 """number of parts in which rows are sorted and measured in parallel"""
@@ -41,6 +43,9 @@ class NeighbourLists:
     fluid: (clusters, capacity) uint32; row c holds ``fluid_counts[c]`` fluid neighbours, then ``ghost_counts[c]``
         ghosts, as indices of rows.
     points: (g, capacity) uint32 fluid neighbours of each evaluation point, ``point_counts`` (g,) of them.
+    sight: the sides of walls, at present, where walls are thin; None where nothing hides a neighbour. With it,
+        ``shares`` (clusters, capacity, LANES) are those in which the members of a cluster of LANES see the entries of
+        ``fluid``, and ``points`` has only what is seen, at the time of the search (:mod:`sphframe.neighbours.sight`).
     """
 
     def __init__(
@@ -52,7 +57,10 @@ class NeighbourLists:
         skin: float,
         cluster: int = 1,
         width: float | None = None,
+        sight: Sight | None = None,
     ) -> None:
+        self.sight = sight
+        self.shares = np.zeros((1, 1, LANES), np.uint8)
         self.dim = dim
         self.support = support
         self.skin = skin
@@ -79,11 +87,12 @@ class NeighbourLists:
         self._tallies = np.zeros((_PARTS, 1), np.int64)
         self._lower, self._upper = np.zeros(dim), np.zeros(dim)
         self._boxes = np.zeros((_PARTS, 1, 6))
+        self._sides_reference = np.zeros((0, 4))
 
     def resized(self, fluid_count: int) -> "NeighbourLists":
         """Return lists of the same kind for another number of fluid particles, not yet built."""
         return NeighbourLists(
-            self.dim, fluid_count, self.ghost_count, self.support, self.skin, self.cluster, self.width
+            self.dim, fluid_count, self.ghost_count, self.support, self.skin, self.cluster, self.width, self.sight
         )
 
     @property
@@ -116,7 +125,15 @@ class NeighbourLists:
             if longest < self.fluid.shape[1]:
                 break
             self.fluid = np.empty((len(self.fluid), _capacity(longest)), np.uint32)
-        self.points = self._around(evaluation_points, rows, self.points, self.point_counts)
+        if self.sight is not None:
+            if self.shares.shape[:2] != self.fluid.shape:
+                self.shares = np.zeros((*self.fluid.shape, LANES), np.uint8)
+            share_lists(
+                rows, n, self.radius, self.fluid, self.fluid_counts, self.ghost_counts, self.shares, self.sight
+            )  # fmt: skip
+            self._sides_reference = self.sight.ends.copy()
+        of_ghosts = self.sight is not None and np.array_equal(evaluation_points, rows[n:, : self.dim])
+        self.points = self._around(evaluation_points, rows, self.points, self.point_counts, of_ghosts=of_ghosts)
         self._fluid_reference[:] = rows[:n, : self.dim]
         self._ghost_reference[:] = rows[n:, : self.dim]
         self._point_reference[:] = evaluation_points
@@ -159,16 +176,19 @@ class NeighbourLists:
 
     def state(self) -> dict[str, Array]:
         """Return copies of the positions from which the lists were built; they determine the lists."""
-        return {
+        state = {
             "fluid": self._fluid_reference.copy(),
             "ghosts": self._ghost_reference.copy(),
             "points": self._point_reference.copy(),
         }
+        return state if self.sight is None else {**state, "sides": self._sides_reference.copy()}
 
     def restore(self, state: Mapping[str, Array], rows: Array) -> None:
         """Build the lists that :meth:`state` describes; the positions in ``rows`` (n + g, width) are overwritten."""
         rows[: self.fluid_count, : self.dim] = state["fluid"]
         rows[self.fluid_count :, : self.dim] = state["ghosts"]
+        if self.sight is not None:
+            self.sight.ends[:] = state["sides"]
         self.sort(rows)  # the particles are in order; this makes the cell grid
         self.build(rows, state["points"])
 
@@ -178,7 +198,13 @@ class NeighbourLists:
         return self._around(points, rows, np.empty((len(points), 8), np.uint32), counts), counts
 
     def _around(
-        self, points: Array, rows: Array, lists: NDArray[np.uint32], counts: NDArray[np.uint32]
+        self,
+        points: Array,
+        rows: Array,
+        lists: NDArray[np.uint32],
+        counts: NDArray[np.uint32],
+        *,
+        of_ghosts: bool = False,
     ) -> NDArray[np.uint32]:
         """List the fluid near ``points`` in ``lists``, or in a longer array where that is too short."""
         while True:
@@ -186,6 +212,8 @@ class NeighbourLists:
                 points, rows, self.dim, self.radius, self._grid, self._starts, _NO_ORDER, lists, counts
             )
             if longest < lists.shape[1]:
+                if self.sight is not None:
+                    keep_seen(points, rows, self.radius, lists, counts, of_ghosts, self.sight)
                 return lists
             lists = np.empty((len(points), _capacity(longest)), np.uint32)
 

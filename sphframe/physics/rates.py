@@ -7,10 +7,13 @@ the acceleration and the density gradient together, since half of the cost of a 
 import numba
 
 from sphframe.compiled import LANES, fma, local_array
-from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, SUPPORT
+from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, MASKED, SUPPORT
+from sphframe.neighbours.sight import WHOLE
 from sphframe.physics.continuity import diffusive_flux
 from sphframe.physics.density_gradient import renormalised_2d, renormalised_3d
 from sphframe.physics.momentum import pair_stress
+
+PER_WHOLE = 1.0 / WHOLE
 
 # parts bound by specialise()
 CONTINUITY = True
@@ -19,12 +22,13 @@ KINDS = 2
 
 
 def fluid_sums(  # type: ignore[no-untyped-def]
-    rows, lists, fluid_counts, ghost_counts, parameters, gradient, rates
+    rows, lists, fluid_counts, ghost_counts, shares, parameters, gradient, rates
 ):
     """Write velocities and, depending on CONTINUITY, density rates or accelerations to ``rates`` (n, 2 dim + 1).
 
     With CONTINUITY the density rate is computed with the given ``gradient`` (n, dim). Without it, the acceleration is
-    computed, and <grad rho> is written to ``gradient``. ``parameters``: :class:`LoopParameters`.
+    computed, and <grad rho> is written to ``gradient``. ``parameters``: :class:`LoopParameters`. With MASKED,
+    ``shares`` are those in which the particles see the entries, see :class:`sphframe.neighbours.NeighbourLists`.
 
     A row of ``lists`` is the common list of LANES consecutive particles. Each neighbour is read once and then
     interacts with all of them: the innermost loops run over these particles, and the compiler turns the loops into
@@ -89,6 +93,8 @@ def fluid_sums(  # type: ignore[no-untyped-def]
                         r2 = fma(dz, dz, r2)
                     weight = GRADIENT(r2 * per_h2) * scale
                     weight = weight if r2 < limit else 0.0  # a selection, not a branch, so that the loop vectorises
+                    if MASKED:
+                        weight *= PER_WHOLE * shares[c, k, a]
                     approach = fma(uj - u[a], dx, (vj - v[a]) * dy)
                     if DIM == 3:
                         approach = fma(wj - w[a], dz, approach)

@@ -15,8 +15,9 @@ Departs from the paper: its Eq. 29 takes a pressure difference, which is zero on
 import numba
 
 from sphframe.compiled import LANES
-from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, SEEN, SUPPORT
+from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, SEEN, SUPPORT
 from sphframe.interfaces import FluidSide, Separation
+from sphframe.neighbours.sight import WHOLE
 from sphframe.physics.momentum import pair_stress
 from sphframe.physics.wall_pair import wall_side
 
@@ -25,6 +26,8 @@ AS_ASSIGNED = True
 """whether ghosts are seen as they were assigned"""
 FORCES = False
 """whether the treatment gives the force"""
+
+PER_WHOLE = 1.0 / WHOLE
 
 
 @numba.njit(inline="always")
@@ -45,12 +48,13 @@ def add_load(load, row, centre, fx, fy, fz):  # type: ignore[no-untyped-def]
 
 
 def wall_reaction(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, fluid_counts, ghost_counts, ghost_walls, shares, centres, walls, parameters, partial,
-    loads,
+    rows, fluid_count, lists, fluid_counts, ghost_counts, seen_shares, ghost_walls, shares, centres, walls,
+    parameters, partial, loads,
 ):  # fmt: skip
     """Write force and moment of each wall to ``loads``: (walls, 3) in 2-D, per metre; (walls, 6) in 3-D; N and N m.
 
     ``shares``: :class:`~sphframe.boundary.corners.Shares` of second walls in the forces on ghosts in corners;
+    ``seen_shares``: those in which the particles see the entries;
     ``centres`` (walls, dim): the points to which moments refer, m; ``partial`` (chunks, walls, 3 or 6) is scratch.
     """
     limit = parameters.support * parameters.support
@@ -98,6 +102,9 @@ def wall_reaction(  # type: ignore[no-untyped-def]
                         fx = stress * dx
                         fy = stress * dy
                         fz = stress * dz if DIM == 3 else 0.0
+                    if MASKED:
+                        share = PER_WHOLE * seen_shares[c, k, i - c * LANES]
+                        fx, fy, fz = share * fx, share * fy, share * fz
                     other = shares.wall[g]
                     if other >= 0:
                         along = fx * shares.dual[g, 0] + fy * shares.dual[g, 1]

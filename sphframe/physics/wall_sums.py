@@ -8,10 +8,13 @@ force of its own adds its acceleration instead, and has no part in the density r
 import numba
 
 from sphframe.compiled import LANES, fma, local_array
-from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, SEEN, SUPPORT
+from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, SEEN, SUPPORT
 from sphframe.interfaces import FluidSide, Separation
+from sphframe.neighbours.sight import WHOLE
 from sphframe.physics.momentum import pair_stress
 from sphframe.physics.wall_pair import wall_side
+
+PER_WHOLE = 1.0 / WHOLE
 
 # parts bound by specialise()
 CONTINUITY = True
@@ -19,7 +22,7 @@ FORCES = False
 
 
 def wall_sums(  # type: ignore[no-untyped-def]
-    rows, lists, fluid_counts, ghost_counts, walls, parameters, rates
+    rows, lists, fluid_counts, ghost_counts, shares, walls, parameters, rates
 ):
     """Add the sums over wall particles to the density rates or, without CONTINUITY, to the accelerations ``rates``.
 
@@ -66,12 +69,15 @@ def wall_sums(  # type: ignore[no-untyped-def]
                 separation = Separation(dx, dy, dz, r2)
                 if FORCES:
                     ax, ay, az = FORCE(wall, separation, parameters)
-                    fx[a] += ax
-                    fy[a] += ay
-                    fz[a] += az
+                    share = PER_WHOLE * shares[c, k, a] if MASKED else 1.0
+                    fx[a] += share * ax
+                    fy[a] += share * ay
+                    fz[a] += share * az
                 else:
                     weight = GRADIENT(r2 * per_h2) * scale
                     weight = weight if r2 < limit else 0.0
+                    if MASKED:
+                        weight *= PER_WHOLE * shares[c, k, a]
                     seen = SEEN(FluidSide(pressure[a], density[a], u[a], v[a], w[a]), wall, separation, parameters)
                     if CONTINUITY:
                         approach = fma(seen.u - u[a], dx, (seen.v - v[a]) * dy)

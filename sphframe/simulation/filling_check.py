@@ -22,7 +22,7 @@ from sphframe.compiled import specialise
 from sphframe.errors import InputError
 from sphframe.geometry import Wall, panels_of
 from sphframe.geometry.shapes import grid
-from sphframe.neighbours import NeighbourLists
+from sphframe.neighbours import NeighbourLists, Sight, share_points
 from sphframe.particles import Columns
 from sphframe.physics import LoopParameters, sample_points
 from sphframe.simulation.components import Components
@@ -50,17 +50,34 @@ class WallFilling(NamedTuple):
 
 
 def filling_by(
-    position: Array, volume: Array, points: Array, components: Components, parameters: LoopParameters
+    position: Array,
+    volume: Array,
+    points: Array,
+    components: Components,
+    parameters: LoopParameters,
+    sight: Sight | None = None,
 ) -> Array:
-    """Return sum_j V_j W(x - x_j) at ``points`` x (k, dim), m, over particles at ``position`` (n, dim), m."""
+    """Return sum_j V_j W(x - x_j) at ``points`` x (k, dim), m, over particles at ``position`` (n, dim), m.
+
+    With ``sight``, the last ones are the ghosts, and counted is what is seen from each point.
+    """
     columns, sums = Columns.of(points.shape[1]), np.zeros(len(points))
     if len(points) and len(position):
         rows = columns.zeros(len(position))
         rows[:, columns.position], rows[:, columns.volume] = position, volume
         lists = NeighbourLists(columns.dim, len(rows), 0, parameters.support, 0.0)
-        rows = rows[lists.sort(rows)]
+        numbers = lists.sort(rows)
+        rows = rows[numbers]
+        near, counts = lists.around(points, rows)
+        if sight is not None:
+            shares, n = np.zeros(near.shape), len(position) - len(sight.ghost_chart)
+            share_points(points, rows, numbers, n, parameters.support, near, counts, shares, sight)
+            listed = np.arange(near.shape[1]) < counts[:, None]
+            rows = rows[near[listed]]  # a row of its own for each point that sees a particle
+            rows[:, columns.volume] *= shares[listed]
+            near[listed] = np.arange(len(rows))
         sample = specialise(sample_points, components.parts)
-        sample(points, rows, *lists.around(points, rows), parameters, np.zeros(len(points)), sums)
+        sample(points, rows, near, counts, parameters, np.zeros(len(points)), sums)
     return sums
 
 
@@ -85,7 +102,7 @@ def filling_beside_walls(
     points = np.vstack([inside[wet], position[next_to]])
     wall = np.concatenate([panels.wall[wet], boundary.wall[ghost[next_to]]])
     every, volumes = np.vstack([position, boundary.position]), np.concatenate([volume, boundary.volume])
-    value = filling_by(every, volumes, points, components, parameters)
+    value = filling_by(every, volumes, points, components, parameters, boundary.sight)
 
     full = np.ones(len(points), dtype=np.bool_)
     along = np.arange(-parameters.support, parameters.support + spacing, spacing)

@@ -87,16 +87,16 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
         SKIN * parameters.support,
         cluster=LANES,
         width=0.75 * LANES ** (1.0 / dim) * spacing,
+        sight=boundary.sight,
     )
-    density = components.parts["DENSITY"]
     if scene.initial_pressure is not None:
         pressure = scene.initial_pressure(position)
     else:
-        parts = [position[members == index] for index in range(len(scene.fluid))]
-        levels = still_levels(scene, parts, spacing, boundary.groups)
+        regions = [position[members == index] for index in range(len(scene.fluid))]
+        levels = still_levels(scene, regions, spacing, boundary.groups)
         depth = levels[members] - position[:, -1]
         pressure = pressure_at_depth(
-            depth, density, parameters.reference_density, parameters.sound_speed, parameters.gravity
+            depth, components.parts["DENSITY"], parameters.reference_density, parameters.sound_speed, parameters.gravity
         )
         for index, region in enumerate(scene.fluid):
             if region.pressure is not None:
@@ -108,10 +108,11 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     if components.walls.rate is not None:
         boundary.wall_state[:] = hydrostatic_densities(boundary, position, pressure, components, parameters)
     contacts = _contacts(scene, boundary, position, spacing, parameters)
-    loops = RateLoops(components.parts, components.compiled_kernel, components.walls, attracts=case.tension != "none")
+    parts = {**components.parts, "MASKED": boundary.sides is not None}
+    loops = RateLoops(parts, components.compiled_kernel, components.walls, attracts=case.tension != "none")
     states = WallStates(boundary, components.walls.rate, components.parts)
     filling = initial_filling(case, components)
-    system = FluidSystem(rows, boundary, filling, lists, loops, states, components.parts, parameters, contacts)
+    system = FluidSystem(rows, boundary, filling, lists, loops, states, parts, parameters, contacts)
     system.move_walls(0.0)
     system.find_neighbours()
     system.evaluate(0.0)

@@ -7,6 +7,7 @@ from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.filling import Filling
 from sphframe.cases import Case, Scene
+from sphframe.errors import InputError
 from sphframe.interfaces import EvaluationPoint, WallGeometry
 from sphframe.physics import LoopParameters
 from sphframe.simulation.components import Components
@@ -14,7 +15,12 @@ from sphframe.simulation.filling_check import filling_by
 
 
 def initial_boundary(case: Case, scene: Scene, components: Components, parameters: LoopParameters) -> Boundary:
-    """Return the wall particles that the treatment needs."""
+    """Return the wall particles that the treatment needs.
+
+    Raises
+    ------
+    InputError: when a wall is too thin for the treatment.
+    """
     interpolator, treatment = components.interpolator, components.wall_treatment
     in_row = treatment.geometry is WallGeometry.ROW
     boundary = Boundary(
@@ -27,9 +33,23 @@ def initial_boundary(case: Case, scene: Scene, components: Components, parameter
         no_slip=case.slip == "no",
         row_spacing=treatment.row_spacing * case.particle_spacing if in_row else None,
     )
+    if in_row or components.walls.surface is not None:
+        _check_thick(boundary)
     if case.tension == "none" and interpolator is not None:
-        boundary.full[:] = 1.0 - filling_by(boundary.position, boundary.volume, boundary.points, components, parameters)
+        filled = filling_by(boundary.position, boundary.volume, boundary.points, components, parameters, boundary.sight)
+        boundary.full[:] = 1.0 - filled
     return boundary
+
+
+def _check_thick(boundary: Boundary) -> None:
+    """Refuse thin walls for treatments that take the walls themselves, or particles on them, for ghosts."""
+    if boundary.sight is not None:
+        x, y = boundary.sight.ends[np.argmax(boundary.sight.thin), :2]
+        raise InputError(
+            f"the wall at ({x:.6g}, {y:.6g}) is thinner than the kernel's support, and with this wall treatment both of"
+            " its sides would be felt; make it as thick as the support, or choose a treatment with ghosts behind walls,"
+            ' such as wall_treatment = "fixed-ghosts"'
+        )
 
 
 def initial_filling(case: Case, components: Components) -> Filling:

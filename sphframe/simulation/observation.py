@@ -12,6 +12,7 @@ from sphframe.geometry import panels_of, to_body_frame
 from sphframe.interfaces import Fields, Motion, Status, WallLoad
 from sphframe.physics import sample_points
 from sphframe.simulation.components import Components
+from sphframe.simulation.filling_check import filling_by
 from sphframe.simulation.probes import Gauges, PressureProbes, Readings
 from sphframe.simulation.system import FluidSystem
 from sphframe.simulation.wall_loads import WallLoads
@@ -40,8 +41,13 @@ class Observation:
         self._lower, self._upper = (np.array(corner, dtype=np.float64) for corner in scene.domain)
         self._probes = PressureProbes(scene.probes, case.dimension, list(scene.bodies))
         self._gauges = Gauges(scene.gauges, self._lower, self._upper, 0.25 * case.particle_spacing, list(scene.bodies))
-        self._solid = self._solid_share(self._probes.points)
+        self._solid = filling_by(  # share of the kernel within walls
+            self.boundary.position, self.boundary.volume, self._probes.points, components, self.parameters,
+            self.boundary.sight,
+        )  # fmt: skip
         panels = panels_of(self.boundary.groups, case.particle_spacing)
+        if self.boundary.sides is not None:  # on the wall itself they would see both sides of a thin one
+            panels = panels.in_front(1e-3 * case.particle_spacing)
         self._wall_loads = WallLoads(system, scene.walls, scene.wall_parts, panels, self.sample)
         self._sample: Callable[..., None] = specialise(sample_points, components.parts)
 
@@ -100,17 +106,6 @@ class Observation:
         pressures, fillings = np.zeros(len(points)), np.zeros(len(points))
         self._sample(points, self.system.rows, lists, counts, self.parameters, pressures, fillings)
         return pressures, fillings
-
-    def _solid_share(self, points: Array) -> Array:
-        """Return the share of the kernel at ``points`` (k, dim) that is within walls, at present."""
-        ghosts, columns = self.system.rows[self.fluid_count :], self.columns
-        shares = np.zeros(len(points))
-        for k, point in enumerate(points):
-            distance = np.linalg.norm(ghosts[:, columns.position] - point, axis=1)
-            near = distance < self.support
-            weights = [self.components.compiled_kernel.value(r / self.smoothing_length) for r in distance[near]]
-            shares[k] = self.parameters.kernel_scale * float(weights @ ghosts[near, columns.volume])
-        return shares
 
     def probe_readings(self) -> Readings:
         """Return the pressure at each probe, Pa, 0 where it is dry, and whether it is wet."""

@@ -60,7 +60,7 @@ class RateLoops:
         continuity: bool,
     ) -> None:
         """Write density rates or accelerations to ``rates``, see :func:`sphframe.physics.rates.fluid_sums`."""
-        near = lists.fluid, lists.fluid_counts, lists.ghost_counts
+        near = lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares
         self._fluid[continuity](rows, *near, parameters, gradient, rates)
         if continuity in self._walls:
             self._walls[continuity](rows, *near, boundary.arrays, parameters, rates)
@@ -79,8 +79,8 @@ class RateLoops:
     ) -> None:
         """Write the loads on ``walls``, see :func:`sphframe.physics.wall_force.wall_reaction`."""
         self._reaction(
-            rows, lists.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, walls, shares, centres,
-            boundary.arrays, parameters, partial, loads,
+            rows, lists.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares, walls,
+            shares, centres, boundary.arrays, parameters, partial, loads,
         )  # fmt: skip
 
 

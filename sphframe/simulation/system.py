@@ -66,6 +66,7 @@ class FluidSystem(System):
         self._driving_force = np.zeros(dim)
         self._driving_force[-1] = -parameters.reference_density * parameters.gravity
         self._pressure = specialise(update_pressure, parts)
+        self._put_back = specialise(put_back, parts)
         count = lists.fluid_count
         self.rows, self.lists = rows, lists
         self.ids = np.arange(count)
@@ -200,9 +201,9 @@ class FluidSystem(System):
         """Put particles that have come behind a wall back on it; return how many there were."""
         lists, boundary = self.lists, self.boundary
         return int(
-            put_back(
-                self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts,
-                self.columns, spacing, boundary.foot, boundary.normal, boundary.velocity,
+            self._put_back(
+                self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares,
+                boundary.passable, self.columns, spacing, boundary.foot, boundary.normal, boundary.velocity,
             )
         )  # fmt: skip
 

@@ -1,6 +1,6 @@
 """A random cloud with ghosts, its neighbour lists by brute force, and the loops compiled for it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -26,6 +26,7 @@ class Cloud:
     lists: np.ndarray
     fluid_counts: np.ndarray
     ghost_counts: np.ndarray
+    shares: np.ndarray = field(default_factory=lambda: np.zeros((1, 1, LANES), np.uint8))
 
     @property
     def gradient_scale(self):
@@ -58,6 +59,7 @@ class Cloud:
             "COLUMNS": Columns.of(self.dim),
             "SUPPORT": self.kernel.support,
             "GRADIENT": self.kernel.gradient_of_square,
+            "MASKED": len(self.shares) > 1,
         }
 
     def grad_kernel(self, x_ji):
@@ -80,8 +82,9 @@ class Cloud:
 
     def _sum(self, continuity, gradient, rates, **numbers):
         specialise(fluid_sums, {**self.parts(), "CONTINUITY": continuity})(
-            self.rows, self.lists, self.fluid_counts, self.ghost_counts, self.parameters(**numbers), gradient, rates
-        )
+            self.rows, self.lists, self.fluid_counts, self.ghost_counts, self.shares, self.parameters(**numbers),
+            gradient, rates,
+        )  # fmt: skip
 
 
 def make_cloud(dim, seed=0, *, kernel="gaussian", cells=6, ghosts=True, jitter=0.3, spacing=0.1):

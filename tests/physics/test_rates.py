@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sphframe.boundary.corners import Shares
-from sphframe.compiled import specialise
+from sphframe.compiled import LANES, specialise
+from sphframe.neighbours.sight import WHOLE
 from sphframe.particles import Columns
 from sphframe.physics import wall_reaction
 
@@ -121,9 +122,11 @@ def test_spray_never_gives_nan(dim, count):
     assert np.isfinite(rates).all()
 
 
-@pytest.mark.parametrize("dim", [2, 3])
-def test_wall_reaction_is_opposite_to_what_ghosts_do_to_the_fluid(dim):
+@pytest.mark.parametrize(("dim", "hidden"), [(2, False), (2, True), (3, False)])
+def test_wall_reaction_is_opposite_to_what_ghosts_do_to_the_fluid(dim, hidden):
     cloud = make_cloud(dim, 3, cells=9 if dim == 2 else 5)
+    if hidden:
+        cloud.shares = np.random.default_rng(5).integers(0, WHOLE + 1, (*cloud.lists.shape, LANES)).astype(np.uint8)
     c = Columns.of(dim)
     gradient = np.zeros((cloud.fluid_count, dim))
     viscosity = 50.0
@@ -139,7 +142,7 @@ def test_wall_reaction_is_opposite_to_what_ghosts_do_to_the_fluid(dim):
     size = 3 if dim == 2 else 6
     loads, partial = np.full((2, size), np.nan), np.full((7, 2, size), np.nan)
     specialise(wall_reaction, cloud.parts())(
-        cloud.rows, cloud.fluid_count, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, walls,
+        cloud.rows, cloud.fluid_count, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, cloud.shares, walls,
         Shares(np.full_like(walls, -1), nothing, nothing), np.zeros((2, dim)), cloud.walls(),
         cloud.parameters(viscosity=viscosity),
         partial, loads,

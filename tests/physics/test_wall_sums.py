@@ -89,7 +89,7 @@ def rates_of(cloud, walls, parts, attracts, continuity):
     rates = np.zeros((cloud.fluid_count, 2 * cloud.dim + 1))
     parameters = cloud.parameters(viscosity=VISCOSITY)
     specialise(wall_sums, bound)(
-        cloud.rows, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, walls, parameters, rates
+        cloud.rows, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, cloud.shares, walls, parameters, rates
     )  # fmt: skip
     return rates
 
@@ -128,7 +128,7 @@ def test_walls_bear_minus_what_they_exert(dim, parts):
     bound = {**cloud.parts(), "AS_ASSIGNED": False, "FORCES": parts.force is not None}
     bound |= {"SEEN": make_seen(parts, attracts=True), "FORCE": parts.force or odd_force}
     specialise(wall_reaction, bound)(
-        cloud.rows, cloud.fluid_count, cloud.lists, cloud.fluid_counts, cloud.ghost_counts,
+        cloud.rows, cloud.fluid_count, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, cloud.shares,
         (np.arange(ghosts) % 2).astype(np.int64), Shares(np.full(ghosts, -1), nothing, nothing), np.zeros((2, dim)),
         walls, cloud.parameters(viscosity=VISCOSITY), partial, loads,
     )  # fmt: skip

@@ -1,0 +1,249 @@
+"""Neighbours: what a particle sees past thin walls.
+
+A particle sees another one if no side of a thin wall is on the straight line between them. It sees a ghost if the first
+side of any wall that this line enters from the fluid is one of the ghost's own chart
+(:mod:`sphframe.geometry.charts`); behind thick walls it also sees ghosts where the line enters no side.
+
+A line that passes the end of a wall without thickness at the distance s is stopped in the share 1/2 - s/dx (s < 0
+where it meets the wall), between 0 and 1, and one that cuts a corner of a thin solid at the distance s in the share
+s/dx. What one particle does not see of another one, it sees of ghosts in its place. With shares of 0 and 1 alone, sums
+near these ends would jump by a whole particle when the lists are made again.
+"""
+
+import math
+from typing import NamedTuple
+
+import numba
+import numpy as np
+
+from sphframe.arrays import Array, BoolArray, IntArray
+from sphframe.compiled import LANES
+
+WHOLE = 128
+"""share in which a neighbour is seen if nothing hides it; shares are bytes"""
+
+
+class Sight(NamedTuple):
+    """Sides of walls at present, and the charts of ghosts.
+
+    ``ends`` (k, 4): x, y of start and end of each side, m, the fluid on its left; ``smooth`` (k, 2): dx where the start
+    and the end of a side are ends of a line, -dx where they are corners of a thin solid, else 0; ``chart`` (k,);
+    ``thin`` (k,), whether it hides particles. ``ghost_chart`` (g,); ``ghost_thin`` (g,), whether a ghost is seen only
+    through its chart.
+    """
+
+    ends: Array
+    smooth: Array
+    chart: IntArray
+    thin: BoolArray
+    ghost_chart: IntArray
+    ghost_thin: BoolArray
+
+
+@numba.njit(inline="always")
+def _area(ax, ay, bx, by, cx, cy):  # type: ignore[no-untyped-def]
+    """Return twice the area of a triangle, positive where c lies on the left of the line from a to b."""
+    return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+
+
+@numba.njit(inline="always")
+def _left(px, py, qx, qy, x, y, smooth):  # type: ignore[no-untyped-def]
+    """Return 1 where a point lies on the left of the line from p to q, else 0; with ``smooth`` > 0, over that width.
+
+    A line through the common point of two sides that continue each other crosses exactly one of them.
+    """
+    area = _area(px, py, qx, qy, x, y)
+    if smooth <= 0.0:
+        return 1.0 if area > 0.0 else 0.0
+    return min(max(0.5 + area / (smooth * math.hypot(qx - px, qy - py)), 0.0), 1.0)
+
+
+@numba.njit(error_model="numpy")
+def _crossed(px, py, qx, qy, k, sight):  # type: ignore[no-untyped-def]
+    """Return the share of the line from p to q that crosses side ``k``, and where; negative where it comes out."""
+    ax, ay, bx, by = sight.ends[k]
+    before = _area(ax, ay, bx, by, px, py)
+    behind = _area(ax, ay, bx, by, qx, qy)
+    if (before > 0.0 and behind < 0.0) or (before < 0.0 and behind > 0.0):
+        share = abs(
+            _left(px, py, qx, qy, ax, ay, sight.smooth[k, 0]) - _left(px, py, qx, qy, bx, by, sight.smooth[k, 1])
+        )
+        return share if before > 0.0 else -share, before / (before - behind)
+    return 0.0, math.inf
+
+
+@numba.njit(inline="always")
+def _depth(px, py, qx, qy, k, sight):  # type: ignore[no-untyped-def]
+    """Return the distance of the line from p to q from the corners of side ``k``, over that where it is stopped."""
+    depth = 1.0
+    length = math.hypot(qx - px, qy - py)
+    for e in range(2):
+        if sight.smooth[k, e] < 0.0:
+            area = _area(px, py, qx, qy, sight.ends[k, 2 * e], sight.ends[k, 2 * e + 1])
+            depth = min(depth, abs(area) / (-sight.smooth[k, e] * length))
+    return depth
+
+
+@numba.njit(error_model="numpy")
+def _stopped(px, py, qx, qy, k, near, count, sight):  # type: ignore[no-untyped-def]
+    """Return the share of the line from p to q that side ``k`` stops, and where, as a share of the line."""
+    share, place = _crossed(px, py, qx, qy, k, sight)
+    if share <= 0.0:
+        return 0.0, math.inf
+    if sight.thin[k]:
+        leaves = math.inf
+        last = -1
+        for m in range(count):
+            back, where = _crossed(px, py, qx, qy, near[m], sight)
+            if back < 0.0 and where > place + 1e-9 and where < leaves:
+                leaves = where
+                last = near[m]
+        if last >= 0:
+            share *= min(_depth(px, py, qx, qy, k, sight), _depth(px, py, qx, qy, last, sight))
+    return share, place
+
+
+@numba.njit(error_model="numpy")
+def share_of_fluid(px, py, qx, qy, near, count, sight):  # type: ignore[no-untyped-def]
+    """Return the share in which two points see each other past ``count`` sides; the same for both orders of them."""
+    if qx < px or (qx == px and qy < py):
+        px, py, qx, qy = qx, qy, px, py
+    seen = 1.0
+    for k in range(count):
+        if sight.thin[near[k]]:
+            seen -= _stopped(px, py, qx, qy, near[k], near, count, sight)[0]
+    return max(seen, 0.0)
+
+
+@numba.njit(error_model="numpy")
+def share_of_ghost(px, py, qx, qy, g, near, count, sight):  # type: ignore[no-untyped-def]
+    """Return the share in which a particle at p sees ghost ``g`` at q: what the sides of its chart stop of the line.
+
+    Sides stop the line in their order. ``near`` is a list of ``count`` sides.
+    """
+    seen = 0.0
+    left = 1.0
+    last = -1.0
+    while left > 0.0:
+        first = math.inf
+        share = 0.0
+        chart = -1
+        for k in range(count):
+            stopped, place = _stopped(px, py, qx, qy, near[k], near, count, sight)
+            if stopped > 0.0 and last < place < first:
+                first = place
+                share = stopped
+                chart = sight.chart[near[k]]
+        if first == math.inf:
+            break
+        if chart == sight.ghost_chart[g]:
+            seen += min(share, left)
+        left -= share
+        last = first
+    return 1.0 if left == 1.0 and not sight.ghost_thin[g] else seen
+
+
+@numba.njit(error_model="numpy")
+def _sides_near(x0, x1, y0, y1, radius, sight, near):  # type: ignore[no-untyped-def]
+    """List the sides within ``radius`` of a box; their number, -1 if no thin one is within twice that distance."""
+    count = 0
+    any_thin = False
+    for k in range(sight.ends.shape[0]):
+        end = sight.ends[k]
+        gap_x = max(min(end[0], end[2]) - x1, x0 - max(end[0], end[2]))
+        gap_y = max(min(end[1], end[3]) - y1, y0 - max(end[1], end[3]))
+        gap = max(gap_x, gap_y)
+        if gap < 2.0 * radius:
+            any_thin = any_thin or sight.thin[k]
+            if gap < radius:
+                near[count] = k
+                count += 1
+    return count if any_thin else -1
+
+
+@numba.njit(parallel=True, cache=True, error_model="numpy")
+def share_lists(rows, n, radius, lists, counts, ghost_counts, shares, sight):  # type: ignore[no-untyped-def]
+    """Write in which ``shares`` (clusters, capacity, LANES) the particles of clusters see the entries of their lists.
+
+    Entries that none of them sees are taken out of the lists.
+    """
+    for c in numba.prange(counts.shape[0]):
+        first = c * LANES
+        last = min(first + LANES, n)
+        x0 = x1 = rows[first, 0]
+        y0 = y1 = rows[first, 1]
+        for i in range(first + 1, last):
+            x0 = min(x0, rows[i, 0])
+            x1 = max(x1, rows[i, 0])
+            y0 = min(y0, rows[i, 1])
+            y1 = max(y1, rows[i, 1])
+        near = np.empty(sight.ends.shape[0], np.int64)
+        count = _sides_near(x0, x1, y0, y1, radius, sight, near)
+        fluid = counts[c]
+        both = fluid + ghost_counts[c]
+        if count < 0:
+            for k in range(both):
+                for a in range(LANES):
+                    shares[c, k, a] = WHOLE
+            continue
+        kept = 0
+        fluid_kept = 0
+        for k in range(both):
+            j = lists[c, k]
+            any_seen = False
+            for i in range(first, last):
+                if k < fluid:
+                    share = share_of_fluid(rows[i, 0], rows[i, 1], rows[j, 0], rows[j, 1], near, count, sight)
+                else:
+                    share = share_of_ghost(rows[i, 0], rows[i, 1], rows[j, 0], rows[j, 1], j - n, near, count, sight)
+                shares[c, kept, i - first] = int(WHOLE * share + 0.5)
+                any_seen = any_seen or shares[c, kept, i - first] > 0
+            lists[c, kept] = j
+            if any_seen:
+                kept += 1
+                fluid_kept += 1 if k < fluid else 0
+        counts[c] = fluid_kept
+        ghost_counts[c] = kept - fluid_kept
+
+
+@numba.njit(parallel=True, cache=True, error_model="numpy")
+def share_points(points, rows, numbers, n, radius, lists, counts, shares, sight):  # type: ignore[no-untyped-def]
+    """Write in which ``shares`` (k, capacity) ``points`` (k, 2) see the entries of their lists of fluid and ghosts.
+
+    ``numbers`` (rows,): those of the rows; from ``n`` on they are ghosts.
+    """
+    for p in numba.prange(points.shape[0]):
+        x, y = points[p, 0], points[p, 1]
+        near = np.empty(sight.ends.shape[0], np.int64)
+        count = _sides_near(x, x, y, y, radius, sight, near)
+        for k in range(counts[p]):
+            j = lists[p, k]
+            shares[p, k] = 1.0
+            if count >= 0 and numbers[j] < n:
+                shares[p, k] = share_of_fluid(x, y, rows[j, 0], rows[j, 1], near, count, sight)
+            elif count >= 0:
+                shares[p, k] = share_of_ghost(x, y, rows[j, 0], rows[j, 1], numbers[j] - n, near, count, sight)
+
+
+@numba.njit(parallel=True, cache=True, error_model="numpy")
+def keep_seen(points, rows, radius, lists, counts, of_ghosts, sight):  # type: ignore[no-untyped-def]
+    """Take the particles out of the ``lists`` of ``points`` (k, 2) of which half or more is hidden from them.
+
+    Points ``of_ghosts`` are where the ghosts are, behind their walls: they see the particles that see them.
+    """
+    for p in numba.prange(points.shape[0]):
+        x, y = points[p, 0], points[p, 1]
+        near = np.empty(sight.ends.shape[0], np.int64)
+        count = _sides_near(x, x, y, y, radius, sight, near)
+        kept = 0
+        for k in range(counts[p]):
+            j = lists[p, k]
+            lists[p, kept] = j
+            if count < 0:
+                share = 1.0
+            elif of_ghosts:
+                share = share_of_ghost(rows[j, 0], rows[j, 1], x, y, p, near, count, sight)
+            else:
+                share = share_of_fluid(x, y, rows[j, 0], rows[j, 1], near, count, sight)
+            kept += 1 if share > 0.5 else 0
+        counts[p] = kept

@@ -1,0 +1,144 @@
+"""Plates thinner than the support hold water on both sides: levels, forces, free ends, impacts."""
+
+import numpy as np
+import pytest
+
+from sphframe import InputError, Simulation, load_case
+from sphframe.cases.custom import Custom
+
+RHO_G, SPACING = 9810.0, 0.02
+TANK = {"shape": "box", "name": "tank", "lower": (0, 0), "upper": (1, 0.6), "open_faces": ("+y",)}
+
+
+def region(lower, upper):
+    return {"shape": "box", "lower": lower, "upper": upper}
+
+
+def plate(*points, **other):
+    return {"shape": "polygon", "name": "plate", "points": points, **other}
+
+
+def solid(width):
+    low, high = 0.5 - 0.5 * width, 0.5 + 0.5 * width
+    return plate((low, 0), (low, 0.48), (high, 0.48), (high, 0), closed=True)
+
+
+def made(walls, fluid, **other):
+    case = Custom(particle_spacing=SPACING, until=1.0, walls=[TANK, *walls], fluid=fluid, **other)
+    return Simulation(load_case(case), threads=1)
+
+
+def basins(width=0.0, **other):
+    wall = solid(width) if width else plate((0.5, 0), (0.5, 0.48))
+    edge = 0.5 * width
+    return made([wall], [region((0, 0), (0.5 - edge, 0.4)), region((0.5 + edge, 0), (1, 0.2))], **other)
+
+
+def advance(simulation, until):
+    while simulation.time < until:
+        simulation.advance()
+
+
+def largest_speed(simulation):
+    return float(np.hypot(*simulation.fields().velocity.T).max())
+
+
+@pytest.mark.parametrize("width", [0.0, 0.01, 0.04])
+def test_two_basins_with_different_levels_beside_a_plate(width):
+    simulation = basins(width)
+    left = simulation.fields().position[:, 0] < 0.5
+    forces = []
+    while simulation.time < 0.2:
+        simulation.advance()
+        if simulation.time > 0.1 and simulation.step % 10 == 0:
+            load = simulation.wall_loads()["plate"]
+            forces.append((load.force[0], load.force_by_pressure[0]))
+    np.testing.assert_array_equal(simulation.fields().position[:, 0] < 0.5, left)
+    assert simulation.particles_outside() == 0
+    assert largest_speed(simulation) < 0.02 * np.sqrt(9.81 * 0.4)
+    np.testing.assert_allclose(np.mean(forces, axis=0), RHO_G * (0.4**2 - 0.2**2) / 2, rtol=0.01)
+
+
+@pytest.mark.parametrize(
+    ("wall", "fluid"),
+    [
+        (
+            plate((0.5, 0), (0.5, 0.2)),
+            [region((0, 0), (0.5, 0.2)), region((0.5, 0), (1, 0.2)), region((0, 0.2), (1, 0.3))],
+        ),
+        (
+            plate((0.5, 0.04), (0.5, 0.5)),
+            [region((0, 0), (1, 0.04)), region((0, 0.04), (0.5, 0.3)), region((0.5, 0.04), (1, 0.3))],
+        ),
+    ],
+    ids=["weir", "plate that hangs into the water"],
+)
+def test_water_round_a_free_end_stays_at_rest(wall, fluid):
+    simulation = made([wall], fluid)
+    advance(simulation, 0.3)
+    assert largest_speed(simulation) < 0.02 * np.sqrt(9.81 * 0.3)
+    load = simulation.wall_loads()["plate"]
+    np.testing.assert_allclose([load.force[0], load.force_by_pressure[0]], 0.0, atol=1.0)
+
+
+def test_fluid_and_walls_together_conserve_momentum():
+    simulation = made([plate((0.6, 0), (0.6, 0.1))], [region((0, 0), (0.3, 0.4))])
+    advance(simulation, 0.3)  # the water hits the plate and runs over it
+    system = simulation.system
+    system.evaluate(simulation.time)
+    system.update_loads()
+    columns = system.columns
+    masses = system.rows[: system.fluid_count, columns.mass]
+    rate = masses @ system.rates[:, columns.u : columns.u + 2]
+    weight = np.array([0.0, -9.81 * masses.sum()])
+    np.testing.assert_allclose(rate, weight - system.loads[:, :2].sum(axis=0), atol=1e-9 * abs(weight[1]))
+
+
+def test_a_dam_break_does_not_cross_a_plate():
+    simulation = made([plate((0.6, 0), (0.6, 0.58))], [region((0, 0), (0.3, 0.4))])
+    highest = 0.0
+    while simulation.time < 0.4:
+        simulation.advance()
+        if simulation.step % 20 == 0:
+            position = simulation.fields().position
+            assert position[:, 0].max() <= 0.6
+            highest = max(highest, position[position[:, 0] > 0.5, 1].max(initial=0.0))
+    assert highest > 0.4
+    assert simulation.particles_outside() == 0
+
+
+def test_a_restored_run_has_the_same_bits():
+    one, other = basins(), basins()
+    advance(one, 0.02)
+    other.restore(one.state())
+    for simulation in (one, other):
+        advance(simulation, 0.05)
+    for name in ("position", "velocity", "density"):
+        np.testing.assert_array_equal(getattr(one.fields(), name), getattr(other.fields(), name))
+
+
+def test_treatments_with_particles_on_the_walls_refuse_thin_walls():
+    with pytest.raises(InputError, match=r"the wall at \(0.5, .* is thinner than the kernel's support"):
+        basins(wall_treatment="lennard-jones")
+
+
+def test_ghosts_that_are_filled_where_they_are_see_their_own_side():
+    simulation = basins(interpolator="adami")
+    advance(simulation, 0.05)
+    assert largest_speed(simulation) < 0.05 * np.sqrt(9.81 * 0.4)
+
+
+@pytest.mark.parametrize(
+    ("wall", "message"),
+    [
+        (plate((0.5, 0.1), (0.5, 0.5), (0.6, 0.5)), "wall 'plate' has fluid on both sides.*a polyline"),
+        (plate((0.2, 0), (0.2, 0.5)), "wall 'plate' runs through the fluid"),
+        (
+            {"shape": "ellipse", "name": "plate", "centre": (0.7, 0.2), "semi_axes": (0.1, 0.02)},
+            "thinner than .* 0.078 m",
+        ),
+    ],
+)
+def test_walls_that_cannot_hold_water_are_refused(wall, message):
+    with pytest.raises(InputError, match=message):
+        made([wall], [region((0, 0), (0.4, 0.3))])
