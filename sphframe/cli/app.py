@@ -300,15 +300,28 @@ def _verify(
 
 @app.command("new-plugin")
 def _new_plugin(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="name of the method: lower-case words joined by hyphens")],
+    name: Annotated[str, typer.Argument(metavar="NAME", help="name of the component: lower-case words and hyphens")],
+    kind: Annotated[
+        str,
+        typer.Option(
+            metavar="KIND",
+            help="interpolator, wall-treatment, kernel, equation-of-state, integrator, rigid-body or case",
+        ),
+    ] = "interpolator",
+    part: Annotated[
+        str | None,
+        typer.Option(
+            metavar="PART", help="of a wall treatment: seen (default), assign, force, rate or surface; see docs/walls"
+        ),
+    ] = None,
     folder: Annotated[Path, typer.Option(help="folder in which sphframe-NAME is made")] = Path(),
     licence: Annotated[str, typer.Option(help="BSD-3-Clause, MIT or none")] = "BSD-3-Clause",
     author: Annotated[str, typer.Option(help="named in pyproject.toml and in the licence")] = "",
 ) -> None:
-    """Start a boundary interpolation method of your own: a distribution that installs, verifies and runs."""
+    """Start a component of your own: a distribution that installs, verifies and runs."""
     from sphframe.cli.new_plugin import new_plugin_command
 
-    new_plugin_command(name, folder=folder, licence=licence, author=author)
+    new_plugin_command(name, kind=kind, part=part, folder=folder, licence=licence, author=author)
 
 
 @app.command("bench")

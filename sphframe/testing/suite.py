@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from sphframe.cases import Case
 from sphframe.interfaces import (
     BoundaryInterpolator,
     EquationOfState,
@@ -13,6 +14,7 @@ from sphframe.interfaces import (
     Traits,
     WallTreatment,
 )
+from sphframe.testing import cases as case_checks
 from sphframe.testing import equations_of_state, integrators, interpolators, kernels, rigid_bodies, wall_treatments
 from sphframe.testing.evaluation import title
 
@@ -51,6 +53,7 @@ _OTHER_INTERFACES: dict[type, dict[str, Callable[[Any], None]]] = {
     EquationOfState: equations_of_state.CHECKS,
     Integrator: integrators.CHECKS,
     RigidBody: rigid_bodies.CHECKS,
+    Case: case_checks.CHECKS,
 }
 
 
@@ -59,7 +62,8 @@ def checks_of(component: Any, *, promised_only: bool = True) -> list[Check]:
 
     Parameters
     ----------
-    component: an interpolation method, wall treatment, kernel, equation of state, integrator or rigid body.
+    component: an interpolation method, wall treatment, kernel, equation of state, integrator, rigid body or
+        case.
     promised_only: leave out the checks of traits that a method does not declare.
 
     Raises
@@ -75,7 +79,7 @@ def checks_of(component: Any, *, promised_only: bool = True) -> list[Check]:
             return [Check(name, function) for name, function in checks.items()]
     raise TypeError(
         f"there are no checks for {component!r}: give an instance of BoundaryInterpolator, WallTreatment, Kernel,"
-        f" EquationOfState, Integrator or RigidBody"
+        f" EquationOfState, Integrator, RigidBody or Case"
     )
 
 

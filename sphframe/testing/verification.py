@@ -13,7 +13,7 @@ from sphframe.registry import available, create, find, load
 from sphframe.testing.proof import BrokenPromiseError
 from sphframe.testing.suite import Check, checks_of
 
-KINDS = ("interpolators", "wall_treatments", "kernels", "equations_of_state", "integrators", "rigid_bodies")
+KINDS = ("interpolators", "wall_treatments", "kernels", "equations_of_state", "integrators", "rigid_bodies", "cases")
 Verdict = Literal["kept", "held", "broken", "absent"]
 
 
@@ -85,7 +85,7 @@ def verify(names: Sequence[str] = (), *, progress: Callable[[str], None] | None 
     Parameters
     ----------
     names: registered names, ``module:attribute``, or either with options as in ``sfdi[form=printed]``; of interpolation
-        methods, wall treatments, kernels, equations of state, integrators and rigid bodies. Without names: every
+        methods, wall treatments, kernels, equations of state, integrators, rigid bodies and cases. Without names: every
         installed interpolation method, once for each value of an option that has a list of values.
     progress: called with a line of text before each component and check.
 
