@@ -29,10 +29,10 @@ def fluid_problems(scene: Scene, spacing: float, support: float) -> Iterator[str
     for group in groups:
         place = group.thin_place(0.95 * support)
         if place is not None:
+            at = ", ".join(f"{x:.6g}" for x in place)
             yield (
-                f"the solid within walls at ({place[0]:.6g}, {place[1]:.6g}) is thinner than the kernel's support, so"
-                f" that fluid would be felt through it; make it {support:.3g} m thick or more, or choose a smaller"
-                " particle_spacing"
+                f"the solid within walls at ({at}) is thinner than the kernel's support, so that fluid would be"
+                f" felt through it; make it {support:.3g} m thick or more, or choose a smaller particle_spacing"
             )
     for index, region in enumerate(scene.fluid):
         yield from _region_problems(scene, index, region, groups, spacing)

@@ -1,7 +1,7 @@
 """Geometry: walls and regions, and the particles, ghosts, mirror points and panels that are placed on them."""
 
 from sphframe.geometry.curves import sampled
-from sphframe.geometry.fill import Fill, common_part, fill
+from sphframe.geometry.fill import common_part, fill
 from sphframe.geometry.frames import (
     directions_to_world,
     moments,
@@ -13,6 +13,7 @@ from sphframe.geometry.frames import (
 )
 from sphframe.geometry.ghosts import GhostPoints, Panels, Sides, WallGroup
 from sphframe.geometry.groups import ghosts_of, panels_of, row_of, sides_of, wall_groups
+from sphframe.geometry.lattice import Fill
 from sphframe.geometry.regions import (
     BoxRegion,
     CircleRegion,

@@ -1,34 +1,19 @@
 """Geometry: the particles that fill a region, each with the volume of its own cell."""
 
-import itertools
-import math
-from collections.abc import Iterable
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import shapely
 
-from sphframe.arrays import Array, BoolArray, IntArray
+from sphframe.arrays import Array, BoolArray
 from sphframe.geometry.columns import parts_inside, straight_faces
+from sphframe.geometry.lattice import ROUND_OFF, Fill, Lattice
 from sphframe.geometry.regions import Region
-from sphframe.geometry.shapes import CHORD, Box, grid
+from sphframe.geometry.shapes import CHORD, Box
 
 _PARTS = 8
 """parts along each edge into which cells near an outline are divided"""
-_RINGS = 2
-"""cells around those that the outline cuts whose particles are relaxed with them"""
-_SWEEPS = 20
-_BLOCK = 4
-"""cells along each edge of a block in which the number of particles is right"""
-_ROUND_OFF = 1e-9
-
-
-class Fill(NamedTuple):
-    """The particles of a region: positions (n, dim), m, and volumes (n,), m^dim, whose sum is that of the region."""
-
-    position: Array
-    volume: Array
 
 
 @lru_cache(maxsize=32)
@@ -59,7 +44,7 @@ def fill(region: Region, spacing: float) -> Fill:
 def _filled(region: Region, spacing: float) -> Fill:
     if isinstance(region, Box):
         lower, upper = region.bounds()
-        lattice = _Lattice.over(lower, upper, spacing, [*enumerate(lower), *enumerate(upper)])
+        lattice = Lattice.over(lower, upper, spacing, [*enumerate(lower), *enumerate(upper)])
         return Fill(lattice.centre, lattice.size.prod(axis=1))
     return (_filled_area if region.dimension == 2 else _filled_solid)(region, spacing)
 
@@ -67,7 +52,7 @@ def _filled(region: Region, spacing: float) -> Fill:
 def _filled_area(region: Region, spacing: float) -> Fill:
     area = region.geometry(CHORD * spacing)
     lower, upper = np.reshape(area.bounds, (2, 2))
-    lattice = _Lattice.over(lower, upper, spacing, straight_edges(area))
+    lattice = Lattice.over(lower, upper, spacing, straight_edges(area))
     near = np.flatnonzero(lattice.around(shapely.get_coordinates(shapely.segmentize(area.boundary, 0.25 * spacing))))
     shapely.prepare(area)
     size = lattice.size.prod(axis=1)
@@ -88,22 +73,48 @@ def _filled_area(region: Region, spacing: float) -> Fill:
 
 def _filled_solid(region: Region, spacing: float) -> Fill:
     mesh = region.geometry(0.02 * spacing)
-    lattice = _Lattice.over(mesh.bounds[0], mesh.bounds[1], spacing, straight_faces(mesh))
+    lattice = Lattice.over(mesh.bounds[0], mesh.bounds[1], spacing, straight_faces(mesh))
+    return fill_mesh(mesh, lattice, whole=float(mesh.volume))
+
+
+def fill_mesh(
+    mesh: Any,
+    lattice: Lattice,
+    *,
+    near: BoolArray | None = None,
+    whole: float | None = None,
+    least: float | None = None,
+    rings: int = 2,
+    sweeps: int = 20,
+) -> Fill:
+    """Return the particles of the cells of a ``lattice`` inside a closed mesh.
+
+    Those of cells that the mesh cuts, and of ``rings`` of cells around, are relaxed by Lloyd's algorithm.
+
+    Parameters
+    ----------
+    near: (n,) which cells are filled; by default all.
+    whole: the volume that all particles have together, m3; by default what is found along the columns of the cells.
+    least: share inside the mesh from which a cell gets a particle; by default as many as fill the cut cells get one.
+    """
     size = lattice.size.prod(axis=1)
     volume, moment = np.zeros(len(size)), np.zeros((len(size), 3))
     for cell, centre, part in parts_inside(mesh, lattice.axes):
         volume += np.bincount(cell, part, len(size))
         moment += np.stack([np.bincount(cell, part * x, len(size)) for x in centre.T], axis=1)
-    cut, mobile, fixed = lattice.kinds(volume)
-    chosen = lattice.chosen(cut, volume / size)
+    cut, mobile, fixed = (kind if near is None else kind & near for kind in lattice.kinds(volume, rings))
+    if not cut.any():
+        return Fill(lattice.centre[fixed], size[fixed])
+    full = float(size[mobile | fixed].sum())
+    exact = 1.0 if whole is None else (whole - full) / float(volume[cut].sum())
+    chosen = lattice.chosen(cut, volume / size) if least is None else cut & (volume >= least * size)
     found = [
         (centre[which], part[which] * np.where(cut[cell[which]], exact, 1.0))
-        for exact in [(mesh.volume - size[mobile | fixed].sum()) / max(volume[cut].sum(), 1e-300)]
         for cell, centre, part in parts_inside(mesh, lattice.axes)
         for which in [np.flatnonzero((cut | mobile)[cell])]
     ]
     samples, weights = (np.concatenate(arrays) for arrays in zip(*found, strict=True))
-    return lattice.filled(moment[chosen] / volume[chosen, None], mobile, fixed, samples, weights)
+    return lattice.filled(moment[chosen] / volume[chosen, None], mobile, fixed, samples, weights, sweeps)
 
 
 def common_part(one: Region, other: Region, spacing: float) -> tuple[float, Array] | None:
@@ -121,7 +132,7 @@ def common_part(one: Region, other: Region, spacing: float) -> tuple[float, Arra
         return None
     if isinstance(one, Box) and isinstance(other, Box):
         return float(np.prod(upper - lower)), 0.5 * (lower + upper)
-    lattice = _Lattice.over(lower, upper, spacing, ())
+    lattice = Lattice.over(lower, upper, spacing, ())
     size = lattice.size.prod(axis=1)
     twice = -size
     for region in (one, other):
@@ -129,86 +140,6 @@ def common_part(one: Region, other: Region, spacing: float) -> tuple[float, Arra
             twice += np.bincount(cell, part, len(size))
     twice[twice < 0.1 * size] = 0.0
     return (float(twice.sum()), twice @ lattice.centre / twice.sum()) if twice.any() else None
-
-
-class _Lattice(NamedTuple):
-    """A lattice of cells: their centres and widths along each axis, and centres (n, dim) and edges (n, dim) of all."""
-
-    axes: list[tuple[Array, Array]]
-    centre: Array
-    size: Array
-
-    @classmethod
-    def over(cls, lower: Array, upper: Array, spacing: float, edges: Iterable[tuple[int, float]]) -> "_Lattice":
-        """Cover a box, with cells stretched between those ``edges`` (axis, coordinate) that are far enough apart."""
-        axes = []
-        for axis, (low, high) in enumerate(zip(lower, upper, strict=True)):
-            places: list[float] = []
-            for place in (place for k, place in edges if k == axis):
-                if all(abs(place - other) >= 1.5 * spacing for other in places):
-                    places.append(place)
-            places = sorted(places) or [0.5 * (low + high)]
-            before, after = (math.ceil(gap / spacing - 1e-6) for gap in (places[0] - low, high - places[-1]))
-            after = max(after, 1 if len(places) == 1 and before == 0 else 0)
-            pieces = [(places[0] - before * spacing, before, spacing)]
-            for start, stop in itertools.pairwise(places):
-                count = max(int(np.rint((stop - start) / spacing)), 1)
-                pieces.append((start, count, (stop - start) / count))
-            pieces.append((places[-1], after, spacing))
-            centre = np.concatenate([start + (np.arange(count) + 0.5) * width for start, count, width in pieces])
-            axes.append((centre, np.concatenate([np.full(count, width) for _, count, width in pieces])))
-        return cls(axes, grid([centre for centre, _ in axes]), grid([width for _, width in axes]))
-
-    def kinds(self, volume: Array) -> tuple[BoolArray, BoolArray, BoolArray]:
-        """Whether each cell, of which ``volume`` is inside, is cut, is full and near those, or is full and far."""
-        size = self.size.prod(axis=1)
-        full = volume > (1.0 - _ROUND_OFF) * size
-        cut = ~full & (volume > _ROUND_OFF * size)
-        mobile = self.grown(cut, _RINGS) & full
-        return cut, mobile, full & ~mobile
-
-    def chosen(self, cut: BoolArray, share: Array) -> BoolArray:
-        """Choose in each block of cells as many of those that are ``cut`` as they hold, with the largest shares first.
-
-        What is left over when the number in a block is rounded is carried to the next block.
-        """
-        cells = np.flatnonzero(cut)
-        index = np.unravel_index(cells, [len(centre) for centre, _ in self.axes])
-        _, block = np.unique(np.stack(index) // _BLOCK, axis=1, return_inverse=True)
-        block = block.ravel()
-        number = np.diff(np.floor(np.cumsum(np.bincount(block, share[cells])) + 0.5), prepend=0.0)
-        order = np.lexsort((cells, -share[cells].round(6), block))
-        first = np.searchsorted(block[order], np.arange(len(number)))
-        rank = np.arange(len(cells)) - first[block[order]]
-        found = np.zeros(len(cut), dtype=np.bool_)
-        found[cells[order][rank < number[block[order]]]] = True
-        return found
-
-    def filled(self, start: Array, mobile: BoolArray, fixed: BoolArray, samples: Array, weights: Array) -> Fill:
-        """Relax particles at ``start`` and in ``mobile`` cells; those in ``fixed`` cells stay."""
-        position, volume = _relaxed(np.vstack([start, self.centre[mobile]]), samples, weights)
-        fixed_volume = self.size[fixed].prod(axis=1)
-        return Fill(np.vstack([position, self.centre[fixed]]), np.concatenate([volume, fixed_volume]))
-
-    def corners(self, cells: IntArray) -> tuple[Array, ...]:
-        lower, upper = self.centre[cells] - 0.5 * self.size[cells], self.centre[cells] + 0.5 * self.size[cells]
-        return (*lower.T, *upper.T)
-
-    def around(self, points: Array) -> BoolArray:
-        """Whether each cell is the one in which a point lies, or its neighbour."""
-        found = np.zeros([len(centre) for centre, _ in self.axes], dtype=np.bool_)
-        places = [
-            np.clip(np.searchsorted(centre, x), 0, len(centre) - 1)
-            for x, (centre, _) in zip(points.T, self.axes, strict=True)
-        ]
-        found[tuple(places)] = True
-        return self.grown(found.ravel(), 1)
-
-    def grown(self, cells: BoolArray, rings: int) -> BoolArray:
-        from scipy.ndimage import binary_dilation
-
-        block = cells.reshape([len(centre) for centre, _ in self.axes])
-        return np.asarray(binary_dilation(block, np.ones((3,) * block.ndim), iterations=rings).ravel())
 
 
 def straight_edges(area: Any) -> list[tuple[int, float]]:
@@ -219,7 +150,7 @@ def straight_edges(area: Any) -> list[tuple[int, float]]:
         edge = np.abs(np.diff(points, axis=0))
         for axis in (0, 1):
             length = edge[:, 1 - axis]
-            straight = edge[:, axis] <= _ROUND_OFF * length
+            straight = edge[:, axis] <= ROUND_OFF * length
             found += [(-length[k], axis, points[k, axis]) for k in np.flatnonzero(straight)]
     return [(axis, float(place)) for _, axis, place in sorted(found)]
 
@@ -231,20 +162,3 @@ def _parts(boxes: Any) -> Any:
     width, height = (upper_x - lower_x) / _PARTS, (upper_y - lower_y) / _PARTS
     x, y = lower_x + i * width, lower_y + j * height
     return shapely.box(x, y, x + width, y + height)
-
-
-def _relaxed(position: Array, samples: Array, weights: Array) -> Fill:
-    """Move each particle to the centroid of the ``samples`` (m, dim) nearest to it, until none changes its particle."""
-    from scipy.spatial import cKDTree
-
-    nearest = np.full(len(samples), -1)
-    volume = np.zeros(len(position))
-    for _ in range(_SWEEPS):
-        before, nearest = nearest, cKDTree(position).query(samples)[1]
-        volume = np.bincount(nearest, weights, len(position)).astype(np.float64)
-        if np.array_equal(before, nearest):
-            break
-        moments = [np.bincount(nearest, weights * x, len(position)) for x in samples.T]
-        held = volume > 0.0
-        position, volume = np.stack(moments, axis=1)[held] / volume[held, None], volume[held]
-    return Fill(position, volume)

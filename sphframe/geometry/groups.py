@@ -1,6 +1,7 @@
 """Geometry: the groups of the walls of a scene, their ghosts and panels together."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
 
 import numpy as np
 import shapely
@@ -9,6 +10,7 @@ from sphframe.arrays import IntArray
 from sphframe.geometry.box_walls import BoxWalls
 from sphframe.geometry.ghosts import NONE, GhostPoints, Panels, PlaneWalls, Sides, WallGroup
 from sphframe.geometry.shapes import CHORD, Shape
+from sphframe.geometry.solid_walls import SolidWalls
 from sphframe.geometry.walls import BoxWall, Wall
 
 
@@ -17,22 +19,42 @@ def wall_groups(walls: tuple[Wall, ...], fluid: Sequence[Shape], spacing: float)
 
     Parameters
     ----------
-    walls: all walls of a scene. Those of three dimensions are groups of their own.
-    fluid: regions of the fluid at the start; not used in 3-D.
+    walls: all walls of a scene.
+    fluid: regions of the fluid at the start, which tell which sides of walls are wet.
     spacing: of the particles, m.
 
     Raises
     ------
     InputError: when the side of the fluid is ambiguous.
     """
+    members = {
+        body: {k: wall for k, wall in enumerate(walls) if wall.body == body}
+        for body in dict.fromkeys(wall.body for wall in walls)
+    }
     if walls[0].dimension == 3:
-        return [(wall.body, BoxWalls(k, wall)) for k, wall in enumerate(walls) if isinstance(wall, BoxWall)]
+        return [(body, _solid_group(own, fluid, spacing)) for body, own in members.items()]
     whole = shapely.geometrycollections([region.geometry(CHORD * spacing) for region in fluid])
-    bodies = dict.fromkeys(wall.body for wall in walls)
-    return [
-        (body, PlaneWalls({k: wall for k, wall in enumerate(walls) if wall.body == body}, whole, spacing))
-        for body in bodies
-    ]
+    return [(body, PlaneWalls(own, whole, spacing)) for body, own in members.items()]
+
+
+def _solid_group(walls: Mapping[int, Wall], fluid: Sequence[Shape], spacing: float) -> WallGroup:
+    """Return the group of walls of three dimensions; a box that alone holds all fluid keeps its lattice."""
+    (index, wall), *others = walls.items()
+    if not others and isinstance(wall, BoxWall):
+        bounds = np.array([region.bounds() for region in fluid])
+        low, high = (
+            np.where([sign + axis in wall.open_faces for axis in "xyz"], sense * np.inf, place)
+            for sign, sense, place in (("-", -1.0, wall.lower), ("+", 1.0, wall.upper))
+        )
+        if np.all(bounds[:, 0] > low - 0.25 * spacing) and np.all(bounds[:, 1] < high + 0.25 * spacing):
+            return BoxWalls(index, wall)
+    return _solid_walls(tuple(walls.items()), tuple(fluid), spacing)
+
+
+@lru_cache(maxsize=8)
+def _solid_walls(walls: tuple[tuple[int, Wall], ...], fluid: tuple[Shape, ...], spacing: float) -> SolidWalls:
+    """Return walls that are kept, since checks and the run ask for the same ones."""
+    return SolidWalls(dict(walls), fluid, spacing)
 
 
 def ghosts_of(groups: Sequence[WallGroup], spacing: float, layers: int) -> GhostPoints:

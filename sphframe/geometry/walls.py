@@ -1,4 +1,4 @@
-"""Geometry: walls as they are drawn: lines and closed outlines of any shape in 2-D, boxes in 3-D."""
+"""Geometry: walls as they are drawn: lines and closed outlines of any shape in 2-D, surfaces of solids in 3-D."""
 
 import itertools
 from collections.abc import Sequence
@@ -10,18 +10,23 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from shapely import LineString
 
 from sphframe.arrays import Array
+from sphframe.geometry.curves import unit_circle
 from sphframe.geometry.shapes import (
     CHORD,
     Arc,
     Circle,
     Curve,
+    Cylinder,
     Difference,
     Ellipse,
+    Mesh,
     PointsFile,
     Polyline,
+    Sphere,
     Union,
     check_box,
 )
+from sphframe.geometry.wall_solids import WallSolid, box_solid, cylinder_solid, drawn_lines
 
 
 class Drawn(BaseModel):
@@ -37,14 +42,28 @@ class Drawn(BaseModel):
     one_sided: bool = False
     """whether the side without fluid at the start stays dry"""
 
+    def bounds(self) -> tuple[Array, Array]:
+        """Return the lower and the upper corner (dim,) of the box around the wall, m."""
+        drawn: Any = self
+        points = np.vstack(drawn.outline())
+        return points.min(axis=0), points.max(axis=0)
+
+    def solid(self, tolerance: float, far: float) -> WallSolid:
+        """Return the closed surface of a wall in 3-D, at most ``tolerance`` (m) away from the wall."""
+        shape: Any = self
+        mesh = shape.geometry(tolerance)
+        return WallSolid(np.array(mesh.vertices), np.array(mesh.faces), np.zeros(len(mesh.faces), dtype=np.bool_))
+
 
 class ShapeWall(Drawn):
-    """A wall along the outline of a plane shape, or along an open line."""
+    """A wall along the outline of a plane shape, along an open line, or on the surface of a solid."""
 
     def outline(self, tolerance: float | None = None) -> list[Array]:
-        """Return polylines (k, 2), m, at most ``tolerance`` (m) away from the wall."""
+        """Return polylines (k, dim), m, at most ``tolerance`` (m) away from the wall; in 3-D edges and sections."""
         shape: Any = self
         geometry = shape.geometry(shape.coarse if tolerance is None else tolerance)
+        if shape.dimension == 3:
+            return drawn_lines(geometry)
         lines = [geometry] if isinstance(geometry, LineString) else shapely.get_rings(shapely.get_parts(geometry))
         return [shapely.get_coordinates(line) for line in lines]
 
@@ -85,6 +104,24 @@ class UnionWall(Union, ShapeWall):
 
 class DifferenceWall(Difference, ShapeWall):
     """A wall along the outline of a closed shape without others."""
+
+
+class SphereWall(Sphere, ShapeWall):
+    """A spherical wall, around the fluid or within it."""
+
+
+class CylinderWall(Cylinder, ShapeWall):
+    """A circular cylinder around the fluid, whose ends may be open, or within it."""
+
+    open_ends: tuple[Literal["start", "stop"], ...] = ()
+
+    def solid(self, tolerance: float, far: float) -> WallSolid:  # noqa: D102
+        circle = self.radius * unit_circle(tolerance / self.radius)
+        return cylinder_solid(self.start, self.stop, circle, self.open_ends, far)
+
+
+class MeshWall(Mesh, ShapeWall):
+    """A wall on the surface of a closed mesh, around the fluid or within it."""
 
 
 class PolygonWall(Drawn):
@@ -158,6 +195,10 @@ class BoxWall(Drawn):
                 lines.append(np.array([first, second]))
         return lines
 
+    def solid(self, tolerance: float, far: float) -> WallSolid:
+        """Return the closed surface of the box in 3-D, continued by ``far`` (m) across its open faces."""
+        return box_solid(self.lower, self.upper, self.open_faces, far)
+
 
 Wall = Annotated[
     PolygonWall
@@ -169,7 +210,10 @@ Wall = Annotated[
     | CurveWall
     | PointsWall
     | UnionWall
-    | DifferenceWall,
+    | DifferenceWall
+    | SphereWall
+    | CylinderWall
+    | MeshWall,
     Field(discriminator="shape"),
 ]
 

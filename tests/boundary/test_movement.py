@@ -39,7 +39,8 @@ def turning(dim, time):
     else:
         wall = PolygonWall(points=OBSTACLE, closed=True, body="body")
         body = Prescribed(in_the_plane, centre=tuple(CENTRE[:2]))
-    sea = Difference(of=Box(lower=(-2, -2), upper=(3, 3)), minus=[Polygon(points=OBSTACLE)])
+    plane_sea = Difference(of=Box(lower=(-2, -2), upper=(3, 3)), minus=[Polygon(points=OBSTACLE)])
+    sea = plane_sea if dim == 2 else Box(lower=(0.0, 0.0, 0.0), upper=(0.4, 0.3, 0.5))
     boundary = Boundary(
         (wall,), {"body": body}, EvaluationPoint.MIRROR, fluid=[sea], spacing=0.1, support=0.3, no_slip=False
     )

@@ -68,7 +68,7 @@ def test_reflections():
 
 def test_box_of_three_dimensions():
     wall = BoxWall(lower=(0, 0, 0), upper=(1, 1, 1), open_faces=("+z",))
-    group = group_of(wall)
+    group = group_of(wall, fluid=Box(lower=(0, 0, 0), upper=(1, 1, 0.5)))
     ghosts = group.ghosts(0.1, 4)
     assert len(ghosts.position) == 18 * 18 * 14 - 10**3
     assert not group.behind(ghosts.mirror[np.all(ghosts.mirror[:, :2] < 1.0, axis=1)]).any()
