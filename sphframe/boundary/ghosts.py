@@ -37,6 +37,8 @@ VELOCITY_WEIGHTS = VELOCITY_FALLBACK = WEIGHTS
 BOUNDED, FADES = True, False
 LOWEST = 0.0
 """lowest pressure of a ghost where it is BOUNDED, Pa"""
+SEEN_ENOUGH = 0.05
+"""filling of the evaluation point in the midst of the fluid below which it says nothing, far behind a wall"""
 FADED = 0.35
 """filling at the evaluation point, over that in the midst of the fluid, at which a ghost that FADES has no share"""
 
@@ -185,7 +187,7 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                 )  # fmt: skip
                 velocity = rows[row, COLUMNS.u : COLUMNS.u + DIM]
                 pressure, share = ASSIGN(fluid, wall, parameters, velocity, walls.viscous_velocity[g])
-                if FADES:
+                if FADES and walls.full[g] > SEEN_ENOUGH:
                     filling = 0.0
                     for k in range(n):
                         filling += values[k] * volumes[k]
