@@ -71,6 +71,9 @@ def _component_errors(case: Case) -> list[SphframeError]:
 
 def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
     dim, spacing = case.dimension, case.particle_spacing
+    if not scene.walls or not scene.fluid:
+        yield "the case has no wall, or no fluid; it needs at least one of each"
+        return
     shape_problems = [*_dimension_problems(dim, scene), *_name_problems(scene)]
     yield from shape_problems
     if case.gravity == 0.0 and case.sound_speed is None:
@@ -111,6 +114,7 @@ def _dimension_problems(dim: int, scene: Scene) -> Iterator[str]:
 
     for wall in scene.walls:
         yield from expected(f"wall {wall.name!r}", wall.dimension, dim)
+        yield from expected(f"reference_point of wall {wall.name!r}", len(wall.reference_point or (0.0,) * dim), dim)
     for index, region in enumerate(scene.fluid):
         yield from expected(f"fluid[{index}]", region.dimension, dim)
     for probe in scene.probes:

@@ -7,14 +7,15 @@ import numpy as np
 import shapely
 
 from sphframe.arrays import Array
-from sphframe.geometry.curves import area_within
-from sphframe.geometry.walls import PolygonWall, Wall
+from sphframe.geometry.shapes import Shape
+from sphframe.geometry.walls import Wall
 from sphframe.interfaces import Solid
 
 
 def solid_within(walls: Sequence[Wall]) -> Solid | None:
-    """Return the solid within all closed ``walls`` of a body together; None if there is none."""
-    areas = [area_within(wall.points) for wall in walls if isinstance(wall, PolygonWall) and wall.closed]
+    """Return the solid within all closed ``walls`` of a body in 2-D together; None if there is none."""
+    shapes = [wall.geometry(0.01 * wall.coarse) for wall in walls if isinstance(wall, Shape)]
+    areas = [shape for shape in shapes if shape.area > 0.0]
     return solid_of(shapely.union_all(areas)) if areas else None
 
 

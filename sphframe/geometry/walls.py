@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from shapely import LineString
 
 from sphframe.arrays import Array
-from sphframe.geometry.curves import unit_circle
+from sphframe.geometry.curves import area_within, line_through, unit_circle
 from sphframe.geometry.shapes import (
     CHORD,
     Arc,
@@ -20,8 +20,10 @@ from sphframe.geometry.shapes import (
     Difference,
     Ellipse,
     Mesh,
+    Point,
     PointsFile,
     Polyline,
+    Shape,
     Sphere,
     Union,
     check_box,
@@ -41,6 +43,8 @@ class Drawn(BaseModel):
     """name of the body that carries the wall; None means a wall at rest"""
     one_sided: bool = False
     """whether the side without fluid at the start stays dry"""
+    reference_point: tuple[float, ...] | None = Field(default=None, min_length=2, max_length=3)
+    """point to which the moment on the wall refers, as drawn, m; by default the centre of its body, or the origin"""
 
     def bounds(self) -> tuple[Array, Array]:
         """Return the lower and the upper corner (dim,) of the box around the wall, m."""
@@ -106,52 +110,20 @@ class DifferenceWall(Difference, ShapeWall):
     """A wall along the outline of a closed shape without others."""
 
 
-class SphereWall(Sphere, ShapeWall):
-    """A spherical wall, around the fluid or within it."""
-
-
-class CylinderWall(Cylinder, ShapeWall):
-    """A circular cylinder around the fluid, whose ends may be open, or within it."""
-
-    open_ends: tuple[Literal["start", "stop"], ...] = ()
-
-    def solid(self, tolerance: float, far: float) -> WallSolid:  # noqa: D102
-        circle = self.radius * unit_circle(tolerance / self.radius)
-        return cylinder_solid(self.start, self.stop, circle, self.open_ends, far)
-
-
-class MeshWall(Mesh, ShapeWall):
-    """A wall on the surface of a closed mesh, around the fluid or within it."""
-
-
-class PolygonWall(Drawn):
-    """A polyline in 2-D, in either direction; ``closed`` joins the last point to the first."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
+class PolygonWall(Shape, ShapeWall):
+    """A line through points, in either direction; ``closed`` joins the last point to the first."""
 
     shape: Literal["polygon"] = "polygon"
-    points: tuple[tuple[float, float], ...] = Field(min_length=2)
+    points: tuple[Point, ...] = Field(min_length=2)
     closed: bool = False
 
-    @model_validator(mode="after")
-    def _distinct_points(self) -> "PolygonWall":
-        if np.any(np.hypot(*np.diff(self.outline()[0], axis=0).T) <= 0.0):
-            raise ValueError(f"wall {self.name!r} has two equal points in a row; give each corner once")
-        return self
-
-    @property
-    def dimension(self) -> int:
-        """Dimension of space."""
-        return 2
+    def geometry(self, tolerance: float) -> shapely.Polygon | LineString:  # noqa: D102
+        return area_within(self.points) if self.closed else line_through(self.points)
 
     @property
     def is_line(self) -> bool:
         """Whether it is a straight line, which may be wet on both sides; more points bound a solid."""
         return len(self.points) == 2
-
-    def outline(self, tolerance: float | None = None) -> list[Array]:
-        """Return the polyline (k, 2) of the wall, m."""
-        return [np.array([*self.points, *self.points[: int(self.closed)]], dtype=np.float64)]
 
 
 class BoxWall(Drawn):

@@ -9,7 +9,6 @@ from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.wall_states import WallStates
 from sphframe.cases import Case, Scene
 from sphframe.compiled import LANES, specialise
-from sphframe.errors import InputError
 from sphframe.geometry import fill, panels_of
 from sphframe.interfaces import WallGeometry
 from sphframe.neighbours import NeighbourLists
@@ -60,7 +59,6 @@ def drawn(case: Case, scene: Scene, components: Components, parameters: LoopPara
     fills = [fill(region, spacing) for region in scene.fluid]
     position = np.vstack([filled.position for filled in fills])
     volume = np.concatenate([filled.volume for filled in fills])
-    _check_scene(scene, position, case.dimension)
     boundary = initial_boundary(case, scene, components, parameters)
     region = np.repeat(np.arange(len(fills)), [len(filled.volume) for filled in fills])
     filling = filling_beside_walls(boundary, position, volume, spacing, components, parameters)
@@ -72,7 +70,7 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
 
     Raises
     ------
-    InputError: when the scene holds no fluid or no wall, or contradicts the case, or leaves empty space beside walls.
+    InputError: when a body is too light, or fluid and ghosts leave empty space beside walls.
     """
     dim, spacing = case.dimension, case.particle_spacing
     boundary, position, volumes, members, wall_filling = drawn(case, scene, components, parameters)
@@ -152,15 +150,3 @@ def _initial_rows(
     rows[n:, columns.mass] = rho0 * boundary.volume
     rows[n:, columns.position] = boundary.position
     return rows
-
-
-def _check_scene(scene: Scene, position: Array, dim: int) -> None:
-    if position.shape[1] != dim or any(wall.dimension != dim for wall in scene.walls):
-        raise InputError(f"the case says dimension = {dim}, but its walls or fluid are drawn in another one")
-    if len(position) == 0:
-        raise InputError("the case holds no fluid particle: make particle_spacing smaller or the fluid larger")
-    if not scene.walls:
-        raise InputError("the case has no wall; a wall boundary needs at least one")
-    unknown = sorted({wall.body for wall in scene.walls if wall.body is not None} - set(scene.bodies))
-    if unknown:
-        raise InputError(f"walls refer to the bodies {unknown}, but the case has {sorted(scene.bodies) or 'none'}")

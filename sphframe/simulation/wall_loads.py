@@ -1,9 +1,10 @@
 """Simulation: force and moment of the fluid on walls and on named parts of them, in two ways.
 
 By reaction, from the momentum equation (:mod:`sphframe.physics.wall_force`), and by the integral of the pressure over
-the panels of the wall. A moment refers to the present centre of the body that carries the wall, or to the origin for a
-wall at rest; about a point at d from there it is M - d x F. In the force by reaction on a part, ghosts belong to the
-part in which their wall points lie; the shares of corners between two walls are left out.
+the panels of the wall. A moment refers to the wall's reference point, which its body carries; by default to the present
+centre of the body, or to the origin for a wall at rest. About a point at d from there it is M - d x F. In the force by
+reaction on a part, ghosts belong to the part in which their wall points lie; the shares of corners between two walls
+are left out.
 """
 
 from collections.abc import Callable, Sequence
@@ -37,6 +38,7 @@ class WallLoads:
         self._system, self._panels, self._sample = system, panels, sample
         boundary, index = system.boundary, {wall.name: k for k, wall in enumerate(walls)}
         self._names = list(index)
+        self._references = [wall.reference_point for wall in walls]
         self._ghosts = {part.name: (boundary.wall == index[part.wall]) & _within(boundary.foot, part) for part in parts}
         own = {name: (k, panels.wall == k) for name, k in index.items()}
         in_parts = {p.name: (index[p.wall], own[p.wall][1] & _within(panels.centre, p)) for p in parts}
@@ -66,9 +68,22 @@ class WallLoads:
         loads = {}
         for name, (wall, own) in self._surfaces.items():
             moment = moments(centre[own] - references[wall], forces[own]).sum(axis=0)
-            reaction = reactions[name]
-            loads[name] = WallLoad(reaction[:dim], forces[own].sum(axis=0), reaction[dim:], moment)
+            reaction, force = reactions[name], forces[own].sum(axis=0)
+            shift = self._reference(wall, references[wall]) - references[wall]
+            by_reaction, by_pressure = moments(np.array([shift, shift]), np.array([reaction[:dim], force]))
+            loads[name] = WallLoad(reaction[:dim], force, reaction[dim:] - by_reaction, moment - by_pressure)
         return loads
+
+    def _reference(self, wall: int, default: Array) -> Array:
+        """Return the present point, m, to which the moment on a wall refers."""
+        boundary, drawn = self._system.boundary, self._references[wall]
+        if drawn is None:
+            return default
+        point, body = np.array([drawn]), boundary.wall_body[wall]
+        if body >= 0:
+            point = to_world(point, self._system.bodies.motions[body].position, boundary.centres[body])
+        present: Array = point[0]
+        return present
 
 
 def _within(points: Array, part: WallPart) -> BoolArray:

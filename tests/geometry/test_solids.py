@@ -7,7 +7,8 @@ import pytest
 import shapely
 import trimesh
 
-from sphframe.geometry import PolygonWall, solid_of, solid_within
+from sphframe.geometry import Box, PolygonWall, solid_of, solid_within
+from sphframe.geometry.walls import CircleWall, EllipseWall, PolylineWall, UnionWall
 
 
 @pytest.mark.parametrize("clockwise", [False, True])
@@ -54,3 +55,17 @@ def test_only_closed_walls_enclose_a_solid():
     solid = solid_within([open_wall, hull])
     assert solid is not None
     assert solid.volume == 1.0
+
+
+def test_the_solid_within_a_wall_of_any_closed_shape():
+    disc = solid_within([CircleWall(centre=(2, 1), radius=0.5)])
+    oval = solid_within([EllipseWall(centre=(2, 1), semi_axes=(0.5, 0.2), angle=30)])
+    for solid, a, b in ((disc, 0.5, 0.5), (oval, 0.5, 0.2)):
+        assert solid.volume == pytest.approx(math.pi * a * b, rel=1e-12)
+        assert solid.centroid == pytest.approx([2.0, 1.0], abs=1e-12)
+        assert solid.moments[0, 0] == pytest.approx(math.pi * a * b * (a * a + b * b) / 4.0, rel=1e-4)
+    boxes = [Box(lower=(0, 0), upper=(2, 1)), Box(lower=(0, 0), upper=(1, 2))]
+    ell = solid_within([UnionWall(of=boxes)])
+    assert ell.volume == pytest.approx(3.0)
+    assert ell.centroid == pytest.approx([5.0 / 6.0, 5.0 / 6.0])
+    assert solid_within([PolylineWall(points=((0, 0), (1, 0)))]) is None

@@ -73,6 +73,25 @@ def test_a_body_feels_the_moment_about_its_centre():
     assert moment[0] == pytest.approx(9810.0 * DEPTH**3 / 3.0, rel=0.03)
 
 
+def test_the_moment_refers_to_the_reference_point():
+    foot = [wall | ({"reference_point": [LENGTH, 0.0]} if wall["name"] == "right" else {}) for wall in WALLS]
+    at_rest = Simulation(basin(walls=foot), threads=1).wall_loads()
+    assert at_rest["right"].moment[0] == pytest.approx(-9810.0 * DEPTH**3 / 6.0, rel=0.03)
+    assert at_rest["right"].moment_by_pressure[0] == pytest.approx(-9810.0 * DEPTH**3 / 6.0, rel=0.03)
+    halves = at_rest["lower half"].moment_by_pressure + at_rest["upper half"].moment_by_pressure
+    assert halves == pytest.approx(at_rest["right"].moment_by_pressure, rel=1e-12)
+    walls = [wall | {"body": "flap"} if wall["name"] == "right" else wall for wall in foot]
+    body = {"name": "displacement-series", "contents": "0 0\n1 0\n", "centre": [LENGTH, DEPTH]}
+    carried = Simulation(basin(walls=walls, bodies={"flap": body}), threads=1).wall_loads()["right"].moment
+    assert carried[0] == pytest.approx(-9810.0 * DEPTH**3 / 6.0, rel=0.03)
+
+
+def test_a_reference_point_has_the_coordinates_of_its_case():
+    walls = [wall | {"reference_point": [0.0, 0.0, 0.0]} if wall["name"] == "bed" else wall for wall in WALLS]
+    with pytest.raises(InputError, match="reference_point of wall 'bed' has 3 coordinates, but dimension = 2 needs 2"):
+        load_case(basin(walls=walls))
+
+
 def test_in_space_moments_are_vectors(tmp_path):
     case = Custom(
         dimension=3, particle_spacing=0.05, until=0.01, probe_interval=0.005,
