@@ -110,6 +110,24 @@ class DifferenceWall(Difference, ShapeWall):
     """A wall along the outline of a closed shape without others."""
 
 
+class SphereWall(Sphere, ShapeWall):
+    """A spherical wall, around the fluid or within it."""
+
+
+class CylinderWall(Cylinder, ShapeWall):
+    """A circular cylinder around the fluid, whose ends may be open, or within it."""
+
+    open_ends: tuple[Literal["start", "stop"], ...] = ()
+
+    def solid(self, tolerance: float, far: float) -> WallSolid:  # noqa: D102
+        circle = self.radius * unit_circle(tolerance / self.radius)
+        return cylinder_solid(self.start, self.stop, circle, self.open_ends, far)
+
+
+class MeshWall(Mesh, ShapeWall):
+    """A wall on the surface of a closed mesh, around the fluid or within it."""
+
+
 class PolygonWall(Shape, ShapeWall):
     """A line through points, in either direction; ``closed`` joins the last point to the first."""
 

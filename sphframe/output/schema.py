@@ -66,7 +66,7 @@ def _text(dimensions: tuple[str, ...], long_name: str) -> Variable:
     return Variable(dimensions, "", long_name, "text")
 
 
-_ABOUT = {"comment": "about the present centre of the body that carries the wall, or the origin"}
+_ABOUT = {"comment": "about the reference point of the wall, by default the centre of its body, or the origin"}
 
 VARIABLES: Mapping[str, Variable] = {
     # names along the dimensions
