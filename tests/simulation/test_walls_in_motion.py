@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 from sphframe.bodies import Prescribed
 from sphframe.cases import Case, Gauge, Probe, Scene
 from sphframe.cases.floating_body import FloatingBody
-from sphframe.geometry import BoxWall, PolygonRegion, PolygonWall
+from sphframe.geometry import BoxWall, Circle, PolygonRegion, PolygonWall, moments
+from sphframe.geometry.regions import DifferenceRegion
+from sphframe.geometry.walls import CircleWall
 from sphframe.simulation import Simulation
 
 Array = NDArray[np.float64]
@@ -138,3 +140,72 @@ def test_sharp_corners_do_not_leak() -> None:
     simulation = Simulation(StepTank(guards={"density": "count"}), threads=1)
     run(simulation, 0.7)
     assert simulation.particles_outside() == 0
+
+
+class Annulus(Case):
+    """Fluid between a cylinder of radius 0.1 m that moves and a fixed one of 0.2 m, without gravity, under pressure."""
+
+    particle_spacing: float = 0.01
+    until: float = 10.0
+    frame_interval: float = 1.0
+    probe_interval: float = 0.1
+    gravity: float = 0.0
+    sound_speed: float = 10.0
+    motion: Any = None
+
+    def scene(self) -> Scene:
+        inner, outer = Circle(centre=(0, 0), radius=0.1), Circle(centre=(0, 0), radius=0.2)
+        return Scene(
+            walls=(
+                CircleWall(name="inner", centre=(0, 0), radius=0.1, body="cylinder"),
+                CircleWall(name="outer", centre=(0, 0), radius=0.2),
+            ),
+            fluid=(DifferenceRegion(of=outer, minus=(inner,)),),
+            depth=0.4,
+            domain=((-0.3, -0.3), (0.3, 0.3)),
+            bodies={"cylinder": Prescribed(self.motion)},
+            initial_pressure=lambda position: np.full(len(position), 400.0),
+        )
+
+
+def test_added_mass_of_a_cylinder_in_an_annulus() -> None:
+    """F = -C rho pi r^2 a with C = (R^2 + r^2)/(R^2 - r^2) on the inner cylinder, 2 R^2/(R^2 - r^2) on the outer one.
+
+    In potential flow. All momentum of the fluid is that of the forces on walls, to round-off, and so is its moment.
+    """
+    amplitude, omega = 0.005, 8.0
+    period = 2.0 * np.pi / omega
+
+    def motion(t: float) -> tuple[Any, Any, Any]:
+        """A sine that grows in the first period, so that no sound is excited."""
+        s = min(t / period, 1.0)
+        r, r1 = s**3 * (10 - 15 * s + 6 * s * s), 30 * s * s * (1 - s) ** 2 / period
+        r2 = 60 * s * (1 - 3 * s + 2 * s * s) / period**2
+        sine, cosine = np.sin(omega * t), np.cos(omega * t)
+        parts = r * sine, r1 * sine + r * omega * cosine, (r2 - r * omega**2) * sine + 2 * r1 * omega * cosine
+        return tuple((amplitude * part, 0.0, 0.0) for part in parts)  # type: ignore[return-value]
+
+    simulation = Simulation(Annulus(motion=motion), threads=1)
+    system, columns, series = simulation.system, simulation.columns, []
+    while simulation.time < 2.0 * period:
+        simulation.advance()
+        if simulation.time > period and simulation.step % 5 == 0:
+            loads = simulation.wall_loads()
+            series.append([simulation.time, loads["inner"].force[0], loads["outer"].force[0]])
+    time, inner, outer = np.array(series).T
+    waves = np.column_stack([-(omega**2) * np.sin(omega * time), omega * np.cos(omega * time), np.ones(len(time))])
+    scale = 1000.0 * np.pi * 0.1**2 * amplitude
+    added = [-np.linalg.lstsq(waves, force, rcond=None)[0] / scale for force in (inner, outer)]
+    assert added[0][0] == pytest.approx(5.0 / 3.0, rel=0.05)
+    assert added[1][0] == pytest.approx(-8.0 / 3.0, rel=0.05)
+    assert abs(added[0][1]) < 0.05 * omega  # without viscosity, no force in phase with the velocity
+
+    system.evaluate(simulation.time)
+    system.update_loads()
+    rows = system.rows[: simulation.fluid_count]
+    forces = rows[:, columns.mass, None] * system.rates[:, 2:4]
+    arms = system.references()
+    np.testing.assert_allclose(forces.sum(axis=0), -system.loads[:, :2].sum(axis=0), atol=1e-11 * np.abs(forces).sum())
+    about_origin = system.loads[:, 2].sum() + moments(arms, system.loads[:, :2]).sum()
+    torque = moments(rows[:, columns.position], forces)
+    assert torque.sum() == pytest.approx(-about_origin, abs=1e-11 * np.abs(torque).sum())
