@@ -10,7 +10,7 @@ import shapely
 from sphframe.arrays import Array
 from sphframe.cases.scene import Scene
 from sphframe.errors import InputError
-from sphframe.geometry import Region, WallGroup, common_part, fill, wall_groups, wall_lines
+from sphframe.geometry import PlaneWalls, Region, WallGroup, common_part, fill, wall_groups, wall_lines
 from sphframe.geometry.shapes import CHORD
 
 _THIN = 0.01
@@ -30,10 +30,17 @@ def fluid_problems(scene: Scene, spacing: float, support: float) -> Iterator[str
         place = group.thin_place(0.95 * support)
         if place is not None:
             at = ", ".join(f"{x:.6g}" for x in place)
+            drawn = ", draw it with corners between its sides or as a line" if len(place) == 2 else ""
             yield (
                 f"the solid within walls at ({at}) is thinner than the kernel's support, so that fluid would be"
-                f" felt through it; make it {support:.3g} m thick or more, or choose a smaller particle_spacing"
+                f" felt through it; make it {support:.3g} m thick or more{drawn}, or choose a smaller particle_spacing"
             )
+        for probe in scene.probes:
+            if isinstance(group, PlaneWalls) and group.on_line(probe.position):
+                yield (
+                    f"probe {probe.name!r} at {probe.position} is on a wall without thickness; move it a little, by"
+                    f" {0.01 * spacing:.3g} m or more, to the side on which it measures"
+                )
     for index, region in enumerate(scene.fluid):
         yield from _region_problems(scene, index, region, groups, spacing)
         if scene.initial_pressure is not None and (region.level is not None or region.pressure is not None):

@@ -11,7 +11,7 @@ from sphframe.geometry.frames import (
     turned,
     turning_velocities,
 )
-from sphframe.geometry.ghosts import GhostPoints, Panels, Sides, WallGroup
+from sphframe.geometry.ghosts import GhostPoints, Panels, PlaneWalls, Sides, WallGroup
 from sphframe.geometry.groups import ghosts_of, panels_of, row_of, sides_of, wall_groups
 from sphframe.geometry.lattice import Fill
 from sphframe.geometry.regions import (
@@ -71,6 +71,7 @@ __all__ = [
     "Mesh",
     "MeshRegion",
     "Panels",
+    "PlaneWalls",
     "PointsFile",
     "PointsRegion",
     "Polygon",

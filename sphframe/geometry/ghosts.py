@@ -73,6 +73,15 @@ class Panels(NamedTuple):
     area: Array
     wall: IntArray
 
+    @property
+    def two_sided(self) -> BoolArray:
+        """Whether each panel (k,) is a side of a wall without thickness: another one has the opposite area there."""
+        centre, number = np.unique(self.centre.round(9), axis=0, return_inverse=True)
+        size, area = np.zeros(len(centre)), np.zeros_like(centre)
+        np.add.at(size, number.ravel(), np.linalg.norm(self.area, axis=1))
+        np.add.at(area, number.ravel(), self.area)
+        return np.asarray((np.linalg.norm(area, axis=1) < 1e-9 * size)[number.ravel()])
+
     def in_front(self, distance: float) -> "Panels":
         """Return the panels with their centres at a ``distance`` (m) from the wall, within the fluid."""
         size = np.linalg.norm(self.area, axis=1, keepdims=True)
@@ -244,6 +253,12 @@ class PlaneWalls(WallGroup):
         """
         charts = self._charts(int(np.ceil(least / self._spacing - 1e-9)))[1]
         return next((place for chart in charts if (place := back_to_back(self.domain, chart, least))), None)
+
+    def on_line(self, point: tuple[float, ...]) -> bool:
+        """Return whether a ``point``, m, is on a wall without thickness, so that its side is not known."""
+        sides = np.stack([self.domain.start, self.domain.end], axis=1)[self.domain.two_sided]
+        distance = shapely.distance(shapely.linestrings(sides), shapely.Point(point))
+        return bool(np.any(distance < 0.005 * self._spacing))
 
     def ends(self) -> list[End]:
         """Return the ends of walls from which the boundary of the domain continues in the open."""

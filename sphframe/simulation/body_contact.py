@@ -9,8 +9,8 @@ number of its points. m is the mass of the body, or the reduced mass of two; ome
 the fluid; a body at rest on a bed sinks in by g / omega^2, a few hundredths of a particle spacing. With zeta = 0.7
 bodies hardly rebound. There is no friction. The points are the centres of the panels and the corners of the walls.
 
-Only bodies whose walls enclose a solid touch others. Surfaces that are drawn into each other, such as a flap in a bed,
-do not touch.
+Only bodies whose walls enclose a solid touch others, and walls without thickness are refused beside them. Surfaces that
+are drawn into each other, such as a flap in a bed, do not touch.
 """
 
 from collections.abc import Sequence
@@ -20,6 +20,7 @@ import numpy as np
 
 from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
+from sphframe.errors import InputError
 from sphframe.geometry import Panels, Wall, directions_to_world, moments, to_body_frame, to_world, turning_velocities
 from sphframe.interfaces import Motion
 
@@ -65,6 +66,13 @@ class BodyContacts:
         moving = [k for k, body in enumerate(boundary.bodies.values()) if body.needs_load and self._encloses(k, panels)]
         if not moving:
             return
+        lines = panels.wall[panels.two_sided]
+        if len(lines):
+            names = list(boundary.bodies)
+            raise InputError(
+                f"wall {walls[lines[0]].name!r} is a line without thickness, and body {names[moving[0]]!r}, which moves"
+                " under its load, might touch it: bodies touch solids only; draw the wall as a closed outline"
+            )
         self._surfaces = [_surface(boundary, wall, panels, index) for index, wall in enumerate(walls)]
         rest = [Motion(*np.zeros((3, 3 * boundary.dim - 3))) for _ in boundary.bodies]
         for wall, owner in enumerate(boundary.wall_body.tolist()):
@@ -79,7 +87,8 @@ class BodyContacts:
 
     def _encloses(self, body: int, panels: Panels) -> bool:
         """Whether the walls of a body enclose a solid: their area vectors add up to zero."""
-        area = panels.area[self._boundary.wall_body[panels.wall] == body]
+        own = (self._boundary.wall_body[panels.wall] == body) & ~panels.two_sided
+        area = panels.area[own]
         return len(area) > 0 and float(np.linalg.norm(area.sum(axis=0))) < 1e-6 * float(np.abs(area).sum())
 
     def add_loads(self, motions: Sequence[Motion], loads: Array) -> None:

@@ -117,6 +117,54 @@ def test_a_restored_run_has_the_same_bits():
         np.testing.assert_array_equal(getattr(one.fields(), name), getattr(other.fields(), name))
 
 
+def gate(tmp_path, **other):
+    path = tmp_path / "lift.txt"
+    path.write_text("0, 0, 0\n0.05, 0, 0\n0.25, 0, 0.4\n")
+    wall = {**plate((0.5, 0), (0.5, 0.48)), "body": "gate"}
+    body = {"name": "displacement-series", "path": str(path)}
+    fluid = [region((0, 0), (0.5, 0.4)), region((0.5, 0), (1, 0.1))]
+    return made([wall], fluid, bodies={"gate": body}, **other)
+
+
+def test_a_gate_is_lifted(tmp_path):
+    simulation = gate(tmp_path)
+    left = simulation.fields().position[:, 0] < 0.5
+    while simulation.time < 0.25:
+        simulation.advance()
+        right_of = simulation.fields().position[:, 0] > 0.5
+        if simulation.time < 0.05:
+            np.testing.assert_array_equal(right_of, ~left)
+            load = simulation.wall_loads()["plate"] if simulation.step % 100 == 0 else None
+            if load is not None:
+                exact = RHO_G * (0.4**2 - 0.1**2) / 2
+                np.testing.assert_allclose([load.force[0], load.force_by_pressure[0]], exact, rtol=0.03)
+        bottom = simulation.body_motions()["gate"].position[1]
+        crossed = simulation.fields().position[right_of & left]
+        assert np.all(crossed[crossed[:, 0] < 0.51, 1] < bottom + 0.5 * SPACING)
+    assert simulation.particles_outside() == 0
+    assert (right_of & left).sum() > 20
+
+
+def test_a_restored_run_with_a_moving_gate_has_the_same_bits(tmp_path):
+    one, other = gate(tmp_path), gate(tmp_path)
+    advance(one, 0.08)
+    other.restore(one.state())
+    for simulation in (one, other):
+        advance(simulation, 0.1)
+    np.testing.assert_array_equal(one.fields().position, other.fields().position)
+
+
+def test_bodies_under_load_beside_lines_and_probes_on_lines_are_refused():
+    hull = {"shape": "polygon", "name": "hull", "body": "hull", "closed": True}
+    hull["points"] = ((0.7, 0.25), (0.8, 0.25), (0.8, 0.4), (0.7, 0.4))
+    body = {"name": "free", "mass": 8.0, "inertia": 0.1, "centre": (0.75, 0.32)}
+    below = [region((0, 0), (0.5, 0.2)), region((0.5, 0), (1, 0.2))]
+    with pytest.raises(InputError, match="'plate' is a line without thickness, and body 'hull'"):
+        made([plate((0.5, 0), (0.5, 0.48)), hull], below, bodies={"hull": body})
+    with pytest.raises(InputError, match=r"probe 'p' .* is on a wall without thickness"):
+        basins(probes=[{"name": "p", "position": (0.5, 0.1)}])
+
+
 def test_treatments_with_particles_on_the_walls_refuse_thin_walls():
     with pytest.raises(InputError, match=r"the wall at \(0.5, .* is thinner than the kernel's support"):
         basins(wall_treatment="lennard-jones")
