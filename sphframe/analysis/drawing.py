@@ -9,7 +9,7 @@ import xarray as xr
 
 from sphframe.analysis.fields import free_surface
 from sphframe.analysis.scales import case_of, pressure_scale, time_scale
-from sphframe.arrays import Array
+from sphframe.arrays import Array, IntArray
 from sphframe.errors import InputError
 
 if TYPE_CHECKING:
@@ -125,6 +125,15 @@ def walls_at(dataset: xr.Dataset, time: float) -> list[tuple[Array, int]]:
             points = _moved(points, dataset, int(bodies[wall]), time)
         result.append((points, int(wall)))
     return result
+
+
+def triangles_at(dataset: xr.Dataset, time: float) -> tuple[Array, IntArray]:
+    """Return the triangles (t, 3, 3) of the walls of a run in 3-D, m, at ``time`` (s), and their walls (t,)."""
+    triangles, walls = dataset["triangle_node"].values.copy(), dataset["triangle_wall"].values
+    for wall, body in enumerate(dataset["wall_body"].values):
+        if body >= 0:
+            triangles[walls == wall] = _moved(triangles[walls == wall], dataset, int(body), time)
+    return triangles, walls
 
 
 def draw_probes(axes: "Axes", dataset: xr.Dataset) -> "list[Line2D]":

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 import xarray as xr
 
-from sphframe.analysis.drawing import walls_at
+from sphframe.analysis.drawing import triangles_at, walls_at
 from sphframe.analysis.fields import particles_at
 from sphframe.arrays import Array
 from sphframe.errors import InputError, OutputError
@@ -31,8 +31,8 @@ def export_run(dataset: xr.Dataset, folder: str | os.PathLike[str], to: str, *, 
     dataset: the run, finished or still going.
     folder: created if it is missing; files of an earlier export are replaced.
     to: ``vtkhdf`` for one file per part and frame (VTK's HDF format), ``pvd`` for one series per part that ParaView
-        opens with its times, ``csv`` for probes, gauges, energies and diagnostics. The parts are ``fluid``, ``ghosts``
-        and ``walls``.
+        opens with its times, ``csv`` for probes, gauges, energies and diagnostics. The parts are ``fluid``, ``ghosts``,
+        ``walls`` as lines and, in 3-D, ``surfaces``: the walls as triangles.
     track: wraps the list of times, such as ``rich.progress.track``.
 
     Raises
@@ -72,7 +72,7 @@ def export_csv(dataset: xr.Dataset, path: str | os.PathLike[str]) -> Path:
 
 
 def vtk_parts(dataset: xr.Dataset, time: float | None = None) -> "dict[str, pyvista.PolyData]":
-    """Return those of ``fluid``, ``ghosts`` and ``walls`` that the run has, as VTK data sets.
+    """Return those of ``fluid``, ``ghosts``, ``walls`` and ``surfaces`` that the run has, as VTK data sets.
 
     They are those of the frame nearest to ``time``, s. The ghosts of moving walls are shown at their initial positions,
     as the file of a run does not hold their later ones.
@@ -109,6 +109,11 @@ def vtk_parts(dataset: xr.Dataset, time: float | None = None) -> "dict[str, pyvi
         )
         walls["wall"] = np.concatenate([np.full(len(points), wall) for points, wall in lines])
         parts["walls"] = walls
+    if "triangle_node" in dataset:
+        triangles, owners = triangles_at(dataset, now)
+        corners: Any = np.arange(3 * len(triangles)).reshape(-1, 3)
+        parts["surfaces"] = pyvista.PolyData.from_regular_faces(triangles.reshape(-1, 3), corners)
+        parts["surfaces"].cell_data["wall"] = owners
     return parts
 
 

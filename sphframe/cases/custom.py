@@ -73,7 +73,7 @@ class Custom(Case):
         )
 
     def _around_everything(self, lower: Array, upper: Array) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        corners = np.vstack([*(line for wall in self.walls for line in wall.outline()), lower[None, :], upper[None, :]])
+        corners = np.vstack([*(corner for wall in self.walls for corner in wall.bounds()), lower, upper])
         low, high = corners.min(axis=0), corners.max(axis=0)
         high[-1] += high[-1] - low[-1]
         margin = self.particle_spacing

@@ -62,7 +62,7 @@ def _region_problems(
                 f"{behind.sum()} of {len(position)} particles of fluid[{index}] lie behind a wall, the first at"
                 f" {tuple(position[behind][0].round(6).tolist())}; draw the fluid within the walls"
             )
-    rim = max(float(line[:, -1].max()) for wall in scene.walls for line in wall.outline())
+    rim = max(float(wall.bounds()[1][-1]) for wall in scene.walls)
     top = float(position[:, -1].max())
     if top > rim:
         yield f"fluid[{index}] reaches {top:g} m, above the rim of the walls at {rim:g} m; raise the walls"

@@ -21,7 +21,7 @@ def placed_scene(case: Case) -> Scene:
 
 
 def _placed(case: Case, scene: Scene, name: str) -> RigidBody:
-    solid = solid_within([wall for wall in scene.walls if wall.body == name]) if case.dimension == 2 else None
+    solid = solid_within([wall for wall in scene.walls if wall.body == name])
     try:
         return scene.bodies[name].placed(Surroundings(case.dimension, case.gravity, solid))
     except ValueError as error:  # an InputError is one

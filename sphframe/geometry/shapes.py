@@ -296,7 +296,13 @@ class Union(Shape):
     shape: Literal["union"] = "union"
     of: tuple["AnyShape", ...] = Field(min_length=2)
 
-    def geometry(self, tolerance: float) -> shapely.Polygon | shapely.MultiPolygon:  # noqa: D102
+    @property
+    def dimension(self) -> int:  # noqa: D102
+        return self.of[0].dimension
+
+    def geometry(self, tolerance: float) -> Any:  # noqa: D102
+        if self.dimension == 3:
+            return _some(_solids("union", self.of, tolerance), "union")
         return _some(shapely.union_all([plane_area(shape, tolerance) for shape in self.of]), "union")
 
     def _extent(self) -> float:
@@ -317,7 +323,13 @@ class Difference(Shape):
     of: "AnyShape"
     minus: tuple["AnyShape", ...] = Field(min_length=1)
 
-    def geometry(self, tolerance: float) -> shapely.Polygon | shapely.MultiPolygon:  # noqa: D102
+    @property
+    def dimension(self) -> int:  # noqa: D102
+        return self.of.dimension
+
+    def geometry(self, tolerance: float) -> Any:  # noqa: D102
+        if self.dimension == 3:
+            return _some(_solids("difference", (self.of, *self.minus), tolerance), "difference")
         taken = shapely.union_all([plane_area(shape, tolerance) for shape in self.minus])
         return _some(plane_area(self.of, tolerance).difference(taken), "difference")
 
@@ -445,17 +457,25 @@ def plane_area(shape: Shape, tolerance: float) -> shapely.Polygon | shapely.Mult
     ValueError: when the shape is open or a solid.
     """
     if shape.dimension != 2:
-        raise ValueError(
-            f"{shape.shape}: solids cannot be joined or cut here; make one mesh of them in another program"
-        )
+        raise ValueError(f"{shape.shape}: a solid cannot be joined to, or cut from, a shape of the plane")
     area = shape.geometry(tolerance)
     if not isinstance(area, shapely.Polygon | shapely.MultiPolygon):
         raise ValueError(f"{shape.shape} is an open line; give a closed shape, such as a polygon, or closed = true")
     return area
 
 
+def _solids(operation: str, shapes: Sequence[Shape], tolerance: float) -> Any:
+    """Return the union of solids, or the difference of the first and all others, as a mesh."""
+    from trimesh import boolean
+
+    plane = [shape.shape for shape in shapes if shape.dimension != 3]
+    if plane:
+        raise ValueError(f"{plane[0]}: a shape of the plane cannot be joined to, or cut from, a solid")
+    return getattr(boolean, operation)([shape.geometry(tolerance) for shape in shapes])
+
+
 def _some(area: Any, what: str) -> Any:
-    if area.area <= 0.0:
+    if area.is_empty or area.area <= 0.0:
         raise ValueError(f"nothing is left of the {what}; check which shapes overlap")
     return area
 

@@ -13,7 +13,13 @@ from sphframe.interfaces import Solid
 
 
 def solid_within(walls: Sequence[Wall]) -> Solid | None:
-    """Return the solid within all closed ``walls`` of a body in 2-D together; None if there is none."""
+    """Return the solid within all closed ``walls`` of a body together; None if there is none."""
+    if walls and walls[0].dimension == 3:
+        from trimesh import Trimesh, boolean
+
+        solids = [wall.solid(1e-3 * float(np.ptp(wall.bounds(), axis=0).max()), 1.0) for wall in walls]
+        meshes = [Trimesh(solid.vertices, solid.triangles) for solid in solids if not solid.open.any()]
+        return solid_of(boolean.union(meshes)) if meshes else None
     shapes = [wall.geometry(0.01 * wall.coarse) for wall in walls if isinstance(wall, Shape)]
     areas = [shape for shape in shapes if shape.area > 0.0]
     return solid_of(shapely.union_all(areas)) if areas else None

@@ -52,6 +52,14 @@ class Drawn(BaseModel):
         points = np.vstack(drawn.outline())
         return points.min(axis=0), points.max(axis=0)
 
+    def triangles(self) -> Array:
+        """Return triangles (t, 3, 3), m, that show a wall in 3-D; none in 2-D."""
+        drawn: Any = self
+        if drawn.dimension == 2:
+            return np.empty((0, 3, 3))
+        solid = self.solid(1e-3 * float(np.ptp(self.bounds(), axis=0).max()), 1.0)
+        return np.asarray(solid.vertices[solid.triangles[~solid.open]])
+
     def solid(self, tolerance: float, far: float) -> WallSolid:
         """Return the closed surface of a wall in 3-D, at most ``tolerance`` (m) away from the wall."""
         shape: Any = self

@@ -103,6 +103,7 @@ def _dimensions(simulation: RunView) -> dict[str, int | None]:
     """Lengths of the dimensions. One that would be 0 is left out, since the classic format does not allow it."""
     scene, case = simulation.scene, simulation.case
     outlines = [line for wall in scene.walls for line in wall.outline()]
+    triangles = sum(len(wall.triangles()) for wall in scene.walls)
     lengths = {
         "space": case.dimension,
         "motion": 3 * case.dimension - 3,
@@ -114,6 +115,8 @@ def _dimensions(simulation: RunView) -> dict[str, int | None]:
         "status": len(Status),
         "outline": len(outlines),
         "node": sum(map(len, outlines)),
+        "triangle": triangles,
+        "corner": 3 * (triangles > 0),
         "ghost": simulation.ghost_count,
         "particle": simulation.fluid_count,
         "probe_time": sample_count(case.until, case.probe_interval, case.time_step),
@@ -198,6 +201,10 @@ def _fill_start(file: netCDF4.Dataset, simulation: RunView) -> None:
         file["outline_node"][:] = np.concatenate([line for _, line in lines])
         file["outline_node_count"][:] = [len(line) for _, line in lines]
         file["outline_wall"][:] = [index for index, _ in lines]
+        if dimension == 3:
+            triangles = [wall.triangles() for wall in scene.walls]
+            file["triangle_node"][:] = np.concatenate(triangles)
+            file["triangle_wall"][:] = np.repeat(np.arange(len(triangles)), [len(part) for part in triangles])
         walls = [wall.name for wall in scene.walls]
         if scene.wall_parts:
             file["part_wall"][:] = [walls.index(part.wall) for part in scene.wall_parts]

@@ -94,6 +94,8 @@ VARIABLES: Mapping[str, Variable] = {
         ("outline",), "1", "points of each polyline", "i4", attributes={"sample_dimension": "node"}
     ),
     "outline_wall": Variable(("outline",), "1", "index of the wall that the polyline draws", "i4"),
+    "triangle_node": Variable(("triangle", "corner", "space"), "m", "triangles of the walls in 3-D, at the start"),
+    "triangle_wall": Variable(("triangle",), "1", "index of the wall of each triangle", "i4"),
     "wall_body": Variable(("wall",), "1", "index of the body that carries the wall; -1 for a fixed wall", "i4"),
     "ghost_position": Variable(("ghost", "space"), "m", "position of the ghost particle at the start"),
     "ghost_mirror_position": Variable(("ghost", "space"), "m", "mirror point of the ghost particle at the start"),

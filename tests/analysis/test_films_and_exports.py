@@ -64,6 +64,10 @@ def test_vtk_reads_what_was_exported(name: str, to: str, tmp_path: Path, request
     assert ghosts.n_points == dataset.sizes["ghost"]
     np.testing.assert_array_equal(ghosts["pressure"], frame["ghost_pressure"])
     np.testing.assert_array_equal(walls.points[:, :dim], dataset["outline_node"])
+    if dim == 3:  # the surfaces of the closed faces of the tank
+        surfaces = _read(tmp_path / f"surfaces_{last:04d}.{ending}")
+        size = np.ptp(dataset["outline_node"].values, axis=0)
+        assert surfaces.area == pytest.approx(size[0] * size[1] + 2 * (size[0] + size[1]) * size[2])
     if to == "pvd":
         steps = ElementTree.parse(tmp_path / "fluid.pvd").findall("./Collection/DataSet")
         np.testing.assert_array_equal([float(step.get("timestep", "")) for step in steps], dataset["time"])

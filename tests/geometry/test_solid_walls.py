@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sphframe.errors import InputError
-from sphframe.geometry import Box, BoxWall, Cylinder, Mesh, Sphere, wall_groups
+from sphframe.geometry import Box, BoxWall, Circle, Cylinder, Difference, Mesh, Sphere, Union, solid_within, wall_groups
 from sphframe.geometry.solid_walls import SolidWalls
 from sphframe.geometry.walls import CylinderWall, MeshWall, SphereWall
 
@@ -187,3 +187,20 @@ def test_sharp_edges_are_not_thin_but_fins_are(tmp_path):
         mesh.export(tmp_path / "part.stl")
         place = group_of(MeshWall(file=str(tmp_path / "part.stl")), fluid=FAR, spacing=1.0).thin_place(3.9)
         assert (place is not None) == thin
+
+
+def test_solids_can_be_joined_and_cut():
+    cut = Difference(of=Box(lower=(0, 0, 0), upper=(1, 1, 1)), minus=[Sphere(centre=(0.5, 0.5, 0.5), radius=0.2)])
+    assert cut.geometry(1e-3).volume == pytest.approx(1 - 4 / 3 * np.pi * 0.2**3, rel=1e-6)
+    pair = Union(of=[Box(lower=(0, 0, 0), upper=(1, 1, 1)), Box(lower=(1, 0, 0), upper=(2, 1, 1))])
+    assert pair.geometry(1e-3).volume == pytest.approx(2.0)
+    with pytest.raises(ValueError, match="circle: a shape of the plane cannot be joined"):
+        Union(of=[Box(lower=(0, 0, 0), upper=(1, 1, 1)), Circle(centre=(0, 0), radius=1)])
+
+
+def test_a_body_takes_its_mass_from_its_solid():
+    solid = solid_within([BoxWall(lower=(0, 0, 0), upper=(3, 2, 1))])
+    assert solid.volume == pytest.approx(6.0)
+    np.testing.assert_allclose(solid.centroid, [1.5, 1.0, 0.5])
+    np.testing.assert_allclose(solid.moments, np.diag([5.0, 10.0, 13.0]) * 6 / 12, atol=1e-12)
+    assert solid_within([TANK]) is None
