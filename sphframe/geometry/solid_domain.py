@@ -238,5 +238,7 @@ def _surface(solid: Any) -> tuple[Any, IntArray]:
     mesh = solid.to_mesh64()
     ends = np.asarray(mesh.run_index, np.int64) // 3
     ids = np.repeat(np.asarray(mesh.run_original_id, np.int64), np.diff(ends))
-    surface = trimesh.Trimesh(mesh.vert_properties[:, :3], np.asarray(mesh.tri_verts, np.int64), process=False)
+    # copies, since views would keep the library's object, which it reports as a leak
+    vertices, triangles = np.array(mesh.vert_properties[:, :3]), np.array(mesh.tri_verts, np.int64)
+    surface = trimesh.Trimesh(vertices, triangles, process=False)
     return surface, ids
