@@ -18,7 +18,17 @@ import numpy as np
 import shapely
 
 from sphframe.arrays import Array, BoolArray, IntArray
-from sphframe.geometry.charts import BEYOND, Chart, back_to_back, charts_of, seen_mirrors, thin_edges, thin_solid
+from sphframe.geometry.charts import (
+    BEYOND,
+    THICK,
+    THIN,
+    Chart,
+    back_to_back,
+    charts_of,
+    seen_mirrors,
+    thin_edges,
+    thin_solid,
+)
 from sphframe.geometry.domain import OPEN, Domain, fluid_domain
 from sphframe.geometry.layers import layer_points
 from sphframe.geometry.shapes import CHORD
@@ -182,6 +192,8 @@ class PlaneWalls(WallGroup):
             kind = chart.kind[edge]
             within = (kind != BEYOND) | (np.einsum("ij,ij->i", ghosts.normal, chart.strip.normal[edge]) > 1.0 - 1e-6)
             ghosts, kind = GhostPoints(*(part[within] for part in ghosts)), kind[within]
+            in_fluid = shapely.contains_xy(self.domain.region, ghosts.position[:, 0], ghosts.position[:, 1])
+            kind[in_fluid & (kind == THICK)] = THIN  # in a corner with a thin wall
             mirror, reflection = seen_mirrors(self.domain, ghosts.foot, ghosts.mirror, ghosts.reflection)
             parts.append(ghosts._replace(mirror=self._inside(mirror, spacing), reflection=reflection))
             numbers.append(np.full(len(kind), number))
