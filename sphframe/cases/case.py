@@ -69,6 +69,8 @@ class Case(BaseModel, ABC):
     sound_speed: float | None = quantity(None, "m s-1", "reference sound speed; by default 20 sqrt(g H)", gt=0)
     density_diffusion: float = quantity(0.1, "1", "coefficient delta of the density diffusion", ge=0)
     artificial_viscosity: float = quantity(0.02, "1", "coefficient alpha of the artificial viscosity", ge=0)
+    kinematic_viscosity: float = quantity(0.0, "m2 s-1", "laminar viscosity of the fluid", ge=0)
+    viscosity_model: Literal["morris", "monaghan-gingold"] = quantity("morris", "1", "form of the laminar viscosity")
     slip: Literal["free", "no"] = quantity("free", "1", "slip condition at the walls")
     hydrostatic_lift: Literal["balanced", "mirror"] = quantity(
         "balanced", "1", "how the hydrostatic pressure difference to the ghost is added"

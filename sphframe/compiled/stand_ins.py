@@ -28,6 +28,8 @@ DIM = 2
 """number of dimensions, 2 or 3"""
 COLUMNS = Columns.of(DIM)
 """the columns of a row in that many dimensions"""
+MORRIS = False
+"""whether the laminar viscosity is that of Morris"""
 SUPPORT = 3.0
 """cut-off radius of the kernel in smoothing lengths, R/h"""
 VALUE: ScalarFunction = _not_bound

@@ -15,7 +15,8 @@ class LoopParameters(NamedTuple):
     reference_density: rho0, kg/m^3; ``sound_speed``: c0, m/s.
     gravity: g, m/s^2, downwards along the last axis.
     diffusion: delta h c0, m^2/s, factor of the density diffusion.
-    viscosity: alpha h c0 rho0, Pa s, factor of the artificial viscosity.
+    viscosity: Pa s, factor of pi_ij: alpha h c0 rho0, and 2 (d + 2) rho0 nu of the form of Monaghan and Gingold.
+    friction: 2 rho0 nu of the form of Morris, Pa s.
     spacing: particle spacing dx, m; ``depth``: greatest depth of still water, m.
     """
 
@@ -28,6 +29,7 @@ class LoopParameters(NamedTuple):
     gravity: float
     diffusion: float
     viscosity: float
+    friction: float
     spacing: float
     depth: float
 
@@ -43,10 +45,16 @@ class LoopParameters(NamedTuple):
         gravity: float = 0.0,
         density_diffusion: float = 0.0,
         artificial_viscosity: float = 0.0,
+        kinematic_viscosity: float = 0.0,
+        morris: bool = True,
         spacing: float = 0.0,
         depth: float = 0.0,
     ) -> "LoopParameters":
-        """Return the constants for the dimensionless ``density_diffusion`` delta and ``artificial_viscosity`` alpha."""
+        """Return the constants for the dimensionless ``density_diffusion`` delta and ``artificial_viscosity`` alpha.
+
+        ``kinematic_viscosity`` nu, m^2/s, has the form of Morris, or else of Monaghan and Gingold.
+        """
+        laminar = reference_density * kinematic_viscosity
         return cls(
             smoothing_length=float(smoothing_length),
             support=float(kernel.support * smoothing_length),
@@ -56,7 +64,9 @@ class LoopParameters(NamedTuple):
             sound_speed=float(sound_speed),
             gravity=float(gravity),
             diffusion=float(density_diffusion * smoothing_length * sound_speed),
-            viscosity=float(artificial_viscosity * smoothing_length * sound_speed * reference_density),
+            viscosity=float(artificial_viscosity * smoothing_length * sound_speed * reference_density)
+            + (0.0 if morris else 2.0 * (dim + 2.0) * laminar),
+            friction=2.0 * laminar if morris else 0.0,
             spacing=float(spacing),
             depth=float(depth),
         )

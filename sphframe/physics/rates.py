@@ -7,7 +7,7 @@ the acceleration and the density gradient together, since half of the cost of a 
 import numba
 
 from sphframe.compiled import LANES, fma, local_array
-from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, MASKED, SUPPORT
+from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, MASKED, MORRIS, SUPPORT
 from sphframe.neighbours.sight import WHOLE
 from sphframe.physics.continuity import diffusive_flux
 from sphframe.physics.density_gradient import renormalised_2d, renormalised_3d
@@ -110,6 +110,12 @@ def fluid_sums(  # type: ignore[no-untyped-def]
                         fy[a] = fma(stress, dy, fy[a])
                         if DIM == 3:
                             fz[a] = fma(stress, dz, fz[a])
+                        if MORRIS:
+                            friction = weight * parameters.friction
+                            fx[a] = fma(friction, uj - u[a], fx[a])
+                            fy[a] = fma(friction, vj - v[a], fy[a])
+                            if DIM == 3:
+                                fz[a] = fma(friction, wj - w[a], fz[a])
                         rise = weight * (density_j - density[a])
                         wx = weight * dx
                         wy = weight * dy

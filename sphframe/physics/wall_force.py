@@ -15,7 +15,7 @@ Departs from the paper: its Eq. 29 takes a pressure difference, which is zero on
 import numba
 
 from sphframe.compiled import LANES
-from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, SEEN, SUPPORT
+from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, MORRIS, SEEN, SUPPORT
 from sphframe.interfaces import FluidSide, Separation
 from sphframe.neighbours.sight import WHOLE
 from sphframe.physics.momentum import pair_stress
@@ -102,6 +102,12 @@ def wall_reaction(  # type: ignore[no-untyped-def]
                         fx = stress * dx
                         fy = stress * dy
                         fz = stress * dz if DIM == 3 else 0.0
+                        if MORRIS:
+                            friction = weight * parameters.friction
+                            fx += friction * (u - rows[i, COLUMNS.u])
+                            fy += friction * (v - rows[i, COLUMNS.v])
+                            if DIM == 3:
+                                fz += friction * (w - rows[i, COLUMNS.w])
                     if MASKED:
                         share = PER_WHOLE * seen_shares[c, k, i - c * LANES]
                         fx, fy, fz = share * fx, share * fy, share * fz

@@ -8,7 +8,7 @@ force of its own adds its acceleration instead, and has no part in the density r
 import numba
 
 from sphframe.compiled import LANES, fma, local_array
-from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, SEEN, SUPPORT
+from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, MORRIS, SEEN, SUPPORT
 from sphframe.interfaces import FluidSide, Separation
 from sphframe.neighbours.sight import WHOLE
 from sphframe.physics.momentum import pair_stress
@@ -93,6 +93,12 @@ def wall_sums(  # type: ignore[no-untyped-def]
                         fy[a] = fma(stress, dy, fy[a])
                         if DIM == 3:
                             fz[a] = fma(stress, dz, fz[a])
+                        if MORRIS:
+                            friction = weight * parameters.friction
+                            fx[a] = fma(friction, seen.viscous_u - u[a], fx[a])
+                            fy[a] = fma(friction, seen.viscous_v - v[a], fy[a])
+                            if DIM == 3:
+                                fz[a] = fma(friction, seen.viscous_w - w[a], fz[a])
         for a in range(present):
             i = first + a
             if CONTINUITY:

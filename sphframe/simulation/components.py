@@ -55,6 +55,7 @@ class Components:
         chosen = {field: getattr(case, field).create(kind) for field, kind in COMPONENT_KINDS.items()}
         kernel = compiled_kernel(chosen["kernel"], case.dimension)
         parts = loop_parts(kernel, chosen["equation_of_state"], case.dimension)
+        parts["MORRIS"] = case.kinematic_viscosity > 0.0 and case.viscosity_model == "morris"
         treatment: WallTreatment = chosen["wall_treatment"]
         velocity_interpolator = treatment.velocity_interpolator(chosen["interpolator"])
         chosen["interpolator"] = treatment.interpolator(chosen["interpolator"])

@@ -38,6 +38,8 @@ def loop_parameters(case: Case, scene: Scene, components: Components) -> LoopPar
         gravity=case.gravity,
         density_diffusion=case.density_diffusion,
         artificial_viscosity=case.artificial_viscosity,
+        kinematic_viscosity=case.kinematic_viscosity,
+        morris=case.viscosity_model == "morris",
         spacing=case.particle_spacing,
         depth=scene.depth,
     )

@@ -94,6 +94,8 @@ class Simulation(Observation):
             step = courant * self.smoothing_length / (self.sound_speed + speed)
             check_time_step(step, courant * self.smoothing_length / self.sound_speed, speed)
             step = min(step, case.probe_interval)
+            if case.kinematic_viscosity > 0.0:
+                step = min(step, 0.125 * self.smoothing_length**2 / case.kinematic_viscosity)
         left = case.until - self.time
         return left if left < 1.0000001 * step else step
 

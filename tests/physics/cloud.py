@@ -26,6 +26,7 @@ class Cloud:
     lists: np.ndarray
     fluid_counts: np.ndarray
     ghost_counts: np.ndarray
+    morris: bool = False
     shares: np.ndarray = field(default_factory=lambda: np.zeros((1, 1, LANES), np.uint8))
 
     @property
@@ -60,6 +61,7 @@ class Cloud:
             "SUPPORT": self.kernel.support,
             "GRADIENT": self.kernel.gradient_of_square,
             "MASKED": len(self.shares) > 1,
+            "MORRIS": self.morris,
         }
 
     def grad_kernel(self, x_ji):

@@ -33,7 +33,7 @@ def slow_gradient(cloud):
     return gradient
 
 
-def slow_rates(cloud, gradient, diffusion, viscosity, gravity):
+def slow_rates(cloud, gradient, diffusion, viscosity, gravity, friction=0.0):
     c = Columns.of(cloud.dim)
     rates = np.zeros((cloud.fluid_count, 2 * cloud.dim + 1))
     for i in range(cloud.fluid_count):
@@ -53,6 +53,7 @@ def slow_rates(cloud, gradient, diffusion, viscosity, gravity):
             pressures = cloud.rows[i, c.pressure] + cloud.rows[near, c.pressure]
             pi = np.einsum("ij,ij->i", u_ji, x_ji) / r2
             force = ((viscosity * pi - pressures) * volume) @ grad
+            force += friction * (u_ji.T @ (np.einsum("ij,ij->i", x_ji, grad) / r2 * volume))
             rates[i, cloud.dim : 2 * cloud.dim] += force / density
         rates[i, : cloud.dim] = cloud.rows[i, c.velocity]
         rates[i, 2 * cloud.dim - 1] -= gravity
@@ -67,6 +68,8 @@ def test_rates_equal_the_slow_version(dim, kernel):
     expected_gradient = slow_gradient(cloud)
     np.testing.assert_allclose(gradient, expected_gradient, rtol=1e-8, atol=1e-9 * np.abs(expected_gradient).max())
     numbers = {"diffusion": 0.7, "viscosity": 130.0, "gravity": 9.81}
+    if kernel == "gaussian":
+        cloud.morris, numbers["friction"] = True, 70.0
     rates = cloud.rates(gradient, **numbers)
     expected = slow_rates(cloud, gradient, **numbers)
     np.testing.assert_allclose(rates, expected, rtol=1e-9, atol=1e-10 * np.abs(expected).max())

@@ -11,7 +11,7 @@ from sphframe.physics import make_seen, wall_reaction, wall_sums
 
 from .cloud import make_cloud
 
-VISCOSITY = 50.0
+VISCOSITY, FRICTION = 50.0, 30.0
 
 
 def odd_seen(fluid, wall, separation, constants):
@@ -87,7 +87,7 @@ def rates_of(cloud, walls, parts, attracts, continuity):
     bound["SEEN"] = make_seen(parts, attracts=attracts)
     bound["FORCE"] = parts.force or odd_force
     rates = np.zeros((cloud.fluid_count, 2 * cloud.dim + 1))
-    parameters = cloud.parameters(viscosity=VISCOSITY)
+    parameters = cloud.parameters(viscosity=VISCOSITY, friction=FRICTION)
     specialise(wall_sums, bound)(
         cloud.rows, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, cloud.shares, walls, parameters, rates
     )  # fmt: skip
@@ -119,6 +119,7 @@ def test_sums_are_those_of_plain_numpy(dim, parts, attracts):
 )
 def test_walls_bear_minus_what_they_exert(dim, parts):
     cloud = make_cloud(dim, 5, cells=8 if dim == 2 else 4)
+    cloud.morris = True
     walls, c = cloud.walls(), Columns.of(dim)
     acceleration = rates_of(cloud, walls, parts, True, False)[:, dim : 2 * dim]
     forces = cloud.rows[: cloud.fluid_count, c.mass, None] * acceleration
@@ -130,7 +131,7 @@ def test_walls_bear_minus_what_they_exert(dim, parts):
     specialise(wall_reaction, bound)(
         cloud.rows, cloud.fluid_count, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, cloud.shares,
         (np.arange(ghosts) % 2).astype(np.int64), Shares(np.full(ghosts, -1), nothing, nothing), np.zeros((2, dim)),
-        walls, cloud.parameters(viscosity=VISCOSITY), partial, loads,
+        walls, cloud.parameters(viscosity=VISCOSITY, friction=FRICTION), partial, loads,
     )  # fmt: skip
     np.testing.assert_allclose(loads[:, :dim].sum(axis=0), -forces.sum(axis=0), rtol=1e-10)
     if dim == 2:
