@@ -45,14 +45,16 @@ def edge_quadrature(value: ScalarFunction, support: float, mean: ScalarFunction 
         half = math.sqrt(max(support * support - z2, 0.0))
         a = min(max(a, -half), half)
         b = min(max(b, -half), half)
+        if not a < b:
+            return 0.0, 0.0, 0.0
         foot = min(max(0.0, a), b)
         w0 = mean_along = 0.0
-        for k in range(2 * NODES):
-            start, length = (a, foot - a) if k < NODES else (foot, b - foot)
-            s = start + length * x[k % NODES]
-            q = min(math.sqrt(s * s + z2), support)  # for edges out of reach, too
-            w0 += length * y[k % NODES] * value(q)
-            mean_along += length * y[k % NODES] * k_of(q)
+        for start, length in ((a, foot - a), (foot, b - foot)):
+            for k in range(NODES if length > 0.0 else 0):
+                s = start + length * x[k]
+                q = min(math.sqrt(s * s + z2), support)
+                w0 += length * y[k] * value(q)
+                mean_along += length * y[k] * k_of(q)
         c = centre * math.atan2(z * (b - a), z2 + a * b) - z * mean_along
         ra, rb = min(math.sqrt(a * a + z2), support), min(math.sqrt(b * b + z2), support)
         return c, w0, rb * rb * k_of(rb) - ra * ra * k_of(ra)

@@ -237,6 +237,7 @@ class WallTraits:
     exact_hydrostatic: in a hydrostatic field, acceleration f included, the force is that of the fluid's own lattice.
     exact_shear: with no slip, the viscous force vanishes in a linear shear flow along the wall.
     exact_normal: a velocity that grows linearly from the wall has the divergence of the fluid's own lattice.
+    momentum: fluid and walls together conserve momentum. False where sums are divided by gamma.
     conjugate: without viscosity, diffusion and gravity a wall at rest does no work.
     dimensions: numbers of dimensions in which it works.
     """
@@ -245,6 +246,7 @@ class WallTraits:
     exact_hydrostatic: bool = False
     exact_shear: bool = False
     exact_normal: bool = False
+    momentum: bool = True
     conjugate: bool = False
     dimensions: tuple[int, ...] = (2, 3)
 

@@ -57,6 +57,8 @@ def polynomial_edge_integrals(*terms: tuple[float, tuple[float, ...]]) -> EdgeFu
         for m in range(count):
             half = math.sqrt(max(cuts[m] * cuts[m] - z * z, 0.0))
             low, high = min(max(a, -half), half), min(max(b, -half), half)
+            if not low < high:
+                continue
             w0_low, w1_low, mean_low = primitives(m, low, z)
             w0_high, w1_high, mean_high = primitives(m, high, z)
             c += centres[m] * math.atan2(z * (high - low), z * z + low * high) - z * (mean_high - mean_low)

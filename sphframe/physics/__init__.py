@@ -6,7 +6,7 @@ from sphframe.physics.rates import fluid_sums
 from sphframe.physics.sampling import sample_points
 from sphframe.physics.surface_sums import surface_reaction, surface_sums
 from sphframe.physics.wall_force import wall_reaction
-from sphframe.physics.wall_pair import make_seen
+from sphframe.physics.wall_pair import make_seen, make_surface
 from sphframe.physics.wall_sums import wall_sums
 
 __all__ = [
@@ -14,6 +14,7 @@ __all__ = [
     "fluid_sums",
     "invert_pressure",
     "make_seen",
+    "make_surface",
     "sample_points",
     "surface_reaction",
     "surface_sums",

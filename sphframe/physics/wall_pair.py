@@ -4,7 +4,7 @@ from typing import Any
 
 import numba
 
-from sphframe.interfaces import FluidSide, Seen, SeenFunction, Separation, WallParts, WallSide
+from sphframe.interfaces import Edge, FluidSide, Seen, SeenFunction, Separation, SurfaceFunction, WallParts, WallSide
 
 
 @numba.njit(inline="always")
@@ -66,5 +66,19 @@ def make_seen(walls: WallParts, *, attracts: bool) -> SeenFunction:
             found.viscous_v if rubs else fluid.v,
             found.viscous_w if rubs else fluid.w,
         )
+
+    return limited
+
+
+def make_surface(surface: SurfaceFunction, *, attracts: bool) -> SurfaceFunction:
+    """Return what an edge does to a fluid particle; unless it ``attracts``, the fluid may leave it freely, as above."""
+    if attracts:
+        return surface
+
+    def limited(fluid: FluidSide, wall: WallSide, edge: Edge, constants: Any) -> tuple[float, float, float]:
+        fx, fy, divergence = surface(fluid, wall, edge, constants)
+        if fx * wall.nx + fy * wall.ny > 0.0:
+            return 0.0, 0.0, min(divergence, 0.0)
+        return fx, fy, divergence
 
     return limited

@@ -5,6 +5,7 @@ from typing import Any
 
 from sphframe.cases import Case
 from sphframe.compiled import compile_part
+from sphframe.errors import InputError
 from sphframe.interfaces import (
     BoundaryInterpolator,
     CompiledKernel,
@@ -57,6 +58,12 @@ class Components:
         parts = loop_parts(kernel, chosen["equation_of_state"], case.dimension)
         parts["MORRIS"] = case.kinematic_viscosity > 0.0 and case.viscosity_model == "morris"
         treatment: WallTreatment = chosen["wall_treatment"]
+        if case.dimension not in treatment.traits.dimensions:
+            works = " or ".join(map(str, treatment.traits.dimensions))
+            raise InputError(
+                f"wall_treatment {case.wall_treatment.name!r} works in {works} dimensions, but the case has"
+                f" {case.dimension}: choose another one, see `sphframe list wall_treatments`"
+            )
         velocity_interpolator = treatment.velocity_interpolator(chosen["interpolator"])
         chosen["interpolator"] = treatment.interpolator(chosen["interpolator"])
         context = WallContext(

@@ -13,6 +13,7 @@ from sphframe.physics import (
     LoopParameters,
     fluid_sums,
     make_seen,
+    make_surface,
     surface_reaction,
     surface_sums,
     wall_reaction,
@@ -38,7 +39,8 @@ class RateLoops:
         over_walls, reaction = wall_sums, wall_reaction
         if walls.surface is not None:
             over_walls, reaction = surface_sums, surface_reaction
-            bound |= {"SURFACE": walls.surface, "DIVIDES": walls.divides_by_gamma, "SIGMA": kernel.normalisation}
+            bound["SURFACE"] = make_surface(walls.surface, attracts=attracts)
+            bound |= {"DIVIDES": walls.divides_by_gamma, "SIGMA": kernel.normalisation}
             bound["EDGE_INTEGRALS"] = kernel.edge_integrals
         self._fluid, self._walls = {}, {}
         for continuity in (True, False):

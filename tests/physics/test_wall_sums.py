@@ -5,9 +5,9 @@ import pytest
 
 from sphframe.boundary.corners import Shares
 from sphframe.compiled import specialise
-from sphframe.interfaces import Seen, WallParts
+from sphframe.interfaces import FluidSide, Seen, WallParts, WallSide
 from sphframe.particles import Columns
-from sphframe.physics import make_seen, wall_reaction, wall_sums
+from sphframe.physics import make_seen, make_surface, wall_reaction, wall_sums
 
 from .cloud import make_cloud
 
@@ -138,3 +138,20 @@ def test_walls_bear_minus_what_they_exert(dim, parts):
         position = cloud.rows[: cloud.fluid_count, :2]
         moment = -np.sum(position[:, 0] * forces[:, 1] - position[:, 1] * forces[:, 0])
         np.testing.assert_allclose(loads[:, 2].sum(), moment, rtol=1e-10)
+
+
+def test_an_edge_without_tension_pushes_but_does_not_pull():
+    """With the normal (0, -1) a force upwards pushes. Where an edge would pull, a gap may open without any rate."""
+
+    def surface(fluid, wall, edge, constants):
+        return 3.0, fluid.pressure, fluid.density
+
+    wall = WallSide(**{**dict.fromkeys(WallSide._fields, 0.0), "ny": -1.0})
+    for attracts, pressure, opening, expected in (
+        (True, -2.0, 0.5, (3.0, -2.0, 0.5)),
+        (False, 2.0, 0.5, (3.0, 2.0, 0.5)),
+        (False, -2.0, 0.5, (0.0, 0.0, 0.0)),
+        (False, -2.0, -0.5, (0.0, 0.0, -0.5)),
+    ):
+        fluid = FluidSide(pressure, opening, 0.0, 0.0, 0.0)
+        assert make_surface(surface, attracts=attracts)(fluid, wall, None, None) == expected
