@@ -185,5 +185,5 @@ def test_a_wrong_component_fails_its_check(component, name):
 
 
 def test_other_objects_have_no_checks():
-    with pytest.raises(TypeError, match="BoundaryInterpolator, Kernel, EquationOfState"):
+    with pytest.raises(TypeError, match="BoundaryInterpolator, WallTreatment, Kernel, EquationOfState"):
         checks_of("gaussian")
