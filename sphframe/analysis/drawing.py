@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from sphframe.analysis.fields import free_surface
-from sphframe.analysis.scales import case_of, pressure_scale, time_scale
+from sphframe.analysis.scales import case_of, pressure_scale, time_scale, wall_method
 from sphframe.arrays import Array, IntArray
 from sphframe.errors import InputError
 
@@ -187,10 +187,9 @@ def time_label(dataset: xr.Dataset, time: float) -> str:
 
 def run_title(dataset: xr.Dataset) -> str:
     """One line with case, method and resolution, and with the status of a run that is not complete."""
-    case = case_of(dataset)
     parts = [
         str(dataset.attrs["title"]).capitalize(),
-        f"{case['interpolator']['name']}, {case['hydrostatic_lift']} lift",
+        wall_method(case_of(dataset)),
         f"{dataset.sizes['particle']} particles, spacing {1e3 * dataset.attrs['particle_spacing']:g} mm",
     ]
     if dataset.attrs["completed"] != "yes":

@@ -13,7 +13,7 @@ import xarray as xr
 from sphframe.analysis.drawing import field_to_draw
 from sphframe.analysis.figures import figure_class
 from sphframe.analysis.plots import plot_run
-from sphframe.analysis.scales import case_of
+from sphframe.analysis.scales import case_of, wall_method
 from sphframe.analysis.summary import concerns
 from sphframe.errors import SphframeError
 from sphframe.output import open_dataset
@@ -119,7 +119,7 @@ def _facts(dataset: xr.Dataset, status: str) -> dict[str, str]:
     until = float(case["until"])
     facts = {
         "case": f"{dataset.attrs['case_name']}: {dataset.attrs['title']}",
-        "method": f"{case['interpolator']['name']}, {case['hydrostatic_lift']} lift",
+        "method": wall_method(case),
         "particles": f"{dataset.sizes['particle']:,}, spacing {1e3 * dataset.attrs['particle_spacing']:g} mm",
         "time": f"0 of {until:.4g} s",
     }

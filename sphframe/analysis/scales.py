@@ -38,3 +38,11 @@ def case_of(dataset: xr.Dataset) -> dict[str, Any]:
     """Return the parameters of the case that was run, by name."""
     parameters: dict[str, Any] = json.loads(dataset.attrs["case_parameters"])
     return parameters
+
+
+def wall_method(case: dict[str, Any]) -> str:
+    """Return how the walls of a case, by its parameters, are treated, in words."""
+    treatment = case["wall_treatment"]["name"]
+    if treatment == "fixed-ghosts":
+        return f"{case['interpolator']['name']}, {case['hydrostatic_lift']} lift"
+    return f"{treatment} walls"

@@ -17,7 +17,8 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
     -------
     A dictionary with, in SI units:
 
-    - ``case``, ``interpolator``, ``hydrostatic_lift``, ``particle_spacing``, ``particles``, ``ghosts``, ``completed``;
+    - ``case``, ``wall_treatment``, ``interpolator``, ``hydrostatic_lift``, ``particle_spacing``, ``particles``,
+      ``ghosts``, ``completed``;
     - ``time``, ``steps``, ``wall_clock``, ``steps_per_second``, ``particle_updates_per_second``;
     - ``energy_excess``: largest total energy over its initial value, minus 1; ``mass_drift``: largest relative change
       of the mass;
@@ -39,6 +40,7 @@ def _of_the_case(dataset: xr.Dataset) -> dict[str, Any]:
     case = case_of(dataset)
     return {
         "case": dataset.attrs["case_name"],
+        "wall_treatment": case["wall_treatment"]["name"],
         "interpolator": case["interpolator"]["name"],
         "hydrostatic_lift": case["hydrostatic_lift"],
         "particle_spacing": float(dataset.attrs["particle_spacing"]),

@@ -20,6 +20,7 @@ from sphframe.analysis import (
     series_error,
     summary,
 )
+from sphframe.analysis.drawing import run_title
 from sphframe.errors import InputError, OutputError
 
 
@@ -31,6 +32,7 @@ def test_importing_does_not_load_matplotlib() -> None:
 def test_summary_is_plain_data(tank: xr.Dataset) -> None:
     figures = json.loads(json.dumps(summary(tank)))
     assert figures["case"] == "hydrostatic-tank"
+    assert figures["wall_treatment"] == "fixed-ghosts"
     assert figures["particles"] == 480
     assert figures["time"] == pytest.approx(0.02)
     assert figures["completed"] == "yes"
@@ -38,6 +40,15 @@ def test_summary_is_plain_data(tank: xr.Dataset) -> None:
     assert figures["peaks"]["P0"]["dimensionless_pressure"] == pytest.approx(1.0, abs=0.05)
     assert figures["mass_drift"] == 0.0
     assert figures["front_arrival"] is None
+
+
+def test_titles_name_the_wall_treatment_where_no_interpolator_is_used(tank: xr.Dataset) -> None:
+    assert "improved-shepard, balanced lift" in run_title(tank)
+    parameters = json.loads(tank.attrs["case_parameters"])
+    parameters["wall_treatment"]["name"] = "dynamic-2007"
+    title = run_title(tank.assign_attrs(case_parameters=json.dumps(parameters)))
+    assert "dynamic-2007 walls" in title
+    assert "shepard" not in title
 
 
 def test_summary_of_a_run_that_has_just_begun(tank: xr.Dataset) -> None:

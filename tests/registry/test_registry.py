@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from sphframe import errors, registry
 from sphframe.interfaces import BoundaryInterpolator, Kernel
+from sphframe.registry.kinds import DISTRIBUTIONS
 from sphframe.registry.nearest import nearest
 
 NEAREST = """
@@ -301,3 +302,11 @@ def test_a_name_among_the_candidates_is_its_own_nearest(name: str, others: list[
     found = nearest(name, [*others, name])
     assert found is not None
     assert found.lower().replace("_", "-").replace(" ", "-") == name.lower().replace("_", "-").replace(" ", "-")
+
+
+def test_the_distribution_of_each_component_of_this_project_is_known() -> None:
+    """A name that is missing is answered by what to install."""
+    for kind in registry.KINDS:
+        for entry in registry.available(kind):
+            if entry.distribution.startswith("sphframe-"):
+                assert DISTRIBUTIONS[kind, entry.name] == entry.distribution
