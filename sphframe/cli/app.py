@@ -289,13 +289,16 @@ def _show(
 
 @app.command("verify")
 def _verify(
-    names: Annotated[list[str] | None, typer.Argument(metavar="NAME...", help="by default all methods")] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="print JSON instead of a table")] = False,
+    names: Annotated[
+        list[str] | None, typer.Argument(metavar="NAME...", help="by default interpolators wall_treatments")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="print JSON instead of tables")] = False,
+    as_markdown: Annotated[bool, typer.Option("--markdown", help="print tables in Markdown")] = False,
 ) -> None:
-    """Test interpolation methods against their declared traits."""
+    """Test interpolation methods, wall treatments and other components against their declared traits."""
     from sphframe.cli.verify import verify_command
 
-    verify_command(names or [], as_json=as_json)
+    verify_command(names or [], as_json=as_json, as_markdown=as_markdown)
 
 
 @app.command("new-plugin")

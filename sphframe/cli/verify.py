@@ -2,7 +2,7 @@
 
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
@@ -28,6 +28,14 @@ _COLUMNS = {
     "volumes": ("volume_independence",),
     "continuous": ("continuity",),
 }
+_WALL_COLUMNS = {
+    "C": ("exact_constant",),
+    "H": ("exact_hydrostatic",),
+    "S": ("exact_shear",),
+    "D": ("exact_normal",),
+    "J": ("conjugate",),
+    "M": ("momentum",),
+}
 _MARKS = {
     "kept": ("yes", "green"),
     "held": ("(yes)", "yellow"),
@@ -37,18 +45,18 @@ _MARKS = {
 _BROKEN = ("broken: ", "bold red")
 
 
-def verify_command(names: Sequence[str], *, as_json: bool) -> None:
+def verify_command(names: Sequence[str], *, as_json: bool, as_markdown: bool) -> None:
     """Verify components; exit with 1 when one violates its declared traits."""
-    raise typer.Exit(verify(names, as_json=as_json))
+    raise typer.Exit(verify(names, as_json=as_json, as_markdown=as_markdown))
 
 
-def verify(names: Sequence[str] = (), *, as_json: bool = False) -> int:
+def verify(names: Sequence[str] = (), *, as_json: bool = False, as_markdown: bool = False) -> int:
     """Check components against their declared traits, and print a table and every failure.
 
     Parameters
     ----------
-    names: as for :func:`sphframe.testing.verify`; all installed interpolation methods by default.
-    as_json: print JSON in place of the table.
+    names: as for :func:`sphframe.testing.verify`; all interpolation methods and wall treatments by default.
+    as_json, as_markdown: print JSON, or tables in Markdown, in place of tables of text.
 
     Returns
     -------
@@ -56,8 +64,10 @@ def verify(names: Sequence[str] = (), *, as_json: bool = False) -> int:
 
     Raises
     ------
-    InputError: when the packages that the suite needs are not installed.
+    InputError: when the packages that the suite needs are not installed, or both forms are asked for.
     """
+    if as_json and as_markdown:
+        raise InputError("--json and --markdown exclude each other: choose one")
     if find_spec("hypothesis") is None:
         raise InputError("the verification suite needs hypothesis: python -m pip install 'sphframe[testing]'")
     allow_imports_from_here(names)
@@ -74,18 +84,27 @@ def verify(names: Sequence[str] = (), *, as_json: bool = False) -> int:
             reports = list(reports_of(names, progress=lambda text: status.update(f"verifying {text}")))
     else:
         reports = list(reports_of(names))
-    _print(reports)
+    _print(reports, as_markdown)
     return int(any(report.broken for report in reports))
 
 
-def _print(reports: "Sequence[Report]") -> None:
+def _print(reports: "Sequence[Report]", as_markdown: bool) -> None:
     console = Console(markup=False, highlight=False, soft_wrap=True, width=None if sys.stdout.isatty() else 160)
-    methods = [report for report in reports if report.kind == "interpolators"]
-    if methods:
-        console.print(_table(methods))
-        console.print("yes: declared and held; (yes): held though not declared; -: not declared; BROKEN: see below\n")
+    for kind, headings, rows_of, legend in _TABLES:
+        chosen = [report for report in reports if report.kind == kind]
+        rows = [row for report in chosen for row in rows_of(report)]
+        if chosen and as_markdown:
+            print(markdown(headings, rows))
+        elif chosen:
+            table = Table(*headings, box=None, pad_edge=False)
+            for row in rows:
+                table.add_row(*row)
+            console.print(table)
+            console.print(
+                f"{legend}yes: declared and held; (yes): held though not declared; -: not declared; BROKEN: see below\n"
+            )
     for report in reports:
-        if report.kind != "interpolators":
+        if report.kind not in ("interpolators", "wall_treatments"):
             console.print(Text(_line(report)))
     for report in reports:
         if report.error is not None:
@@ -98,20 +117,36 @@ def _print(reports: "Sequence[Report]") -> None:
     console.print(f"{verdict} their declared traits")
 
 
-def _table(reports: "Sequence[Report]") -> Table:
-    """A row per interpolation method, a column per trait."""
-    table = Table(box=None, pad_edge=False)
-    for column in ("method", *_COLUMNS, "all else"):
-        table.add_column(column)
+def markdown(headings: Sequence[str], rows: "Sequence[Sequence[Text]]") -> str:
+    """Return a table in Markdown."""
+    lines = [headings, ["---"] * len(headings), *([cell.plain for cell in row] for row in rows)]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
+
+
+def method_rows(report: "Report") -> list[list[Text]]:
+    """Return the row of an interpolation method, a column per trait."""
+    verdicts = report.verdicts()
     in_columns = {name for names in _COLUMNS.values() for name in names}
-    for report in reports:
-        verdicts = report.verdicts()
-        cells = [_cell([verdicts[n] for n in names if n in verdicts]) for names in _COLUMNS.values()]
-        cells.append(_cell([verdict for name, verdict in verdicts.items() if name not in in_columns]))
-        if report.error is not None:
-            cells = [Text(*_MARKS["broken"])] * len(cells)
-        table.add_row(Text(report.name), *cells)
-    return table
+    rest = [verdict for name, verdict in verdicts.items() if name not in in_columns]
+    return [[Text(report.name), *_cells(report, _COLUMNS), _cell(rest) if report.error is None else _cell(["broken"])]]
+
+
+def treatment_rows(report: "Report") -> list[list[Text]]:
+    """Return the rows of a wall treatment, one per kernel: its traits, and its errors in the first two layers."""
+    name, traits = Text(report.name), _cells(report, _WALL_COLUMNS)
+    rows = []
+    for kernel, residuals in report.measured.items():
+        measured = [" / ".join(f"{round(value, 3) + 0.0:.3f}" for value in pair) for pair in residuals]
+        rows.append([name, *traits, Text(kernel), *map(Text, measured)])
+        name, traits = Text(""), [Text("")] * len(traits)
+    return rows or [[name, *traits, *[Text("")] * 5]]
+
+
+def _cells(report: "Report", columns: Mapping[str, tuple[str, ...]]) -> list[Text]:
+    if report.error is not None:
+        return [_cell(["broken"])] * len(columns)
+    verdicts = report.verdicts()
+    return [_cell([verdicts[n] for n in names if n in verdicts]) for names in columns.values()]
 
 
 def _line(report: "Report") -> str:
@@ -125,3 +160,17 @@ def _cell(verdicts: Sequence[str]) -> Text:
         if verdict in verdicts:
             return Text(*_MARKS[verdict])
     return Text("")
+
+
+METHOD_HEADINGS = ("method", *_COLUMNS, "all else")
+TREATMENT_HEADINGS = ("treatment", *_WALL_COLUMNS, "kernel", "uniform", "hydrostatic", "normal", "shear")
+_TABLES = (
+    ("interpolators", METHOD_HEADINGS, method_rows, ""),
+    (
+        "wall_treatments",
+        TREATMENT_HEADINGS,
+        treatment_rows,
+        "C: uniform pressure, H: still water, S: shear, D: normal velocity are exact; J: no work of walls at rest; M:"
+        " momentum is conserved; errors in the layers 1 / 2 as in sphframe.testing.WallResiduals\n",
+    ),
+)

@@ -4,16 +4,20 @@ import dataclasses
 import itertools
 import re
 import typing
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from sphframe.errors import InputError, PluginError, UnknownComponentError
+from sphframe.errors import InputError, PluginError, SphframeError, UnknownComponentError
+from sphframe.interfaces import WallTreatment
 from sphframe.registry import available, create, find, load
 from sphframe.testing.proof import BrokenPromiseError
 from sphframe.testing.suite import Check, checks_of
+from sphframe.testing.wall_treatments import WallResiduals, wall_residuals
 
 KINDS = ("interpolators", "wall_treatments", "kernels", "equations_of_state", "integrators", "rigid_bodies", "cases")
+MEASURED_WITH = {"gaussian": 1.3, "wendland-c2": 2.0}
+"""the kernels with which errors of wall treatments are measured, with h over the particle spacing"""
 Verdict = Literal["kept", "held", "broken", "absent"]
 
 
@@ -42,6 +46,8 @@ class Report:
     distribution: str
     results: tuple[Result, ...]
     error: str | None = None
+    measured: Mapping[str, WallResiduals] = field(default_factory=dict)
+    """errors of a wall treatment at a straight bed, by kernel"""
 
     @property
     def broken(self) -> bool:
@@ -66,6 +72,7 @@ class Report:
             "broken": self.broken,
             "error": self.error,
             "properties": self.verdicts(),
+            "measured": {kernel: residuals._asdict() for kernel, residuals in self.measured.items()},
             "checks": [
                 {
                     "check": result.check.name,
@@ -85,15 +92,18 @@ def verify(names: Sequence[str] = (), *, progress: Callable[[str], None] | None 
     Parameters
     ----------
     names: registered names, ``module:attribute``, or either with options as in ``sfdi[form=printed]``; of interpolation
-        methods, wall treatments, kernels, equations of state, integrators, rigid bodies and cases. Without names: every
-        installed interpolation method, once for each value of an option that has a list of values.
+        methods, wall treatments, kernels, equations of state, integrators, rigid bodies and cases; or
+        a kind, such as ``wall_treatments``, for all that are installed, once for each value of an option that has a
+        list of values. Without names: all interpolation methods and wall treatments.
     progress: called with a line of text before each component and check.
 
     Raises
     ------
     UnknownComponentError: when nothing has one of the names.
     """
-    chosen = [_find(name) for name in names] or list(_installed_methods())
+    chosen: list[_Choice] = []
+    for name in names or ("interpolators", "wall_treatments"):
+        chosen += _installed(name) if name in KINDS else [_find(name)]
     for kind, label, name, options in chosen:
         yield _report(kind, label, name, options, progress or (lambda text: None))
 
@@ -135,15 +145,15 @@ def _kind_of_address(name: str) -> str:
     raise first
 
 
-def _installed_methods() -> Iterator[_Choice]:
-    for entry in available("interpolators"):
+def _installed(kind: str) -> Iterator[_Choice]:
+    for entry in available(kind):
         try:
-            variants = list(_variants(load("interpolators", entry.name)))
+            variants = list(_variants(load(kind, entry.name)))
         except PluginError:
             variants = [{}]  # the report contains the error
         for options in variants:
             listed = ",".join(f"{key}={value}" for key, value in options.items())
-            yield "interpolators", f"{entry.name}[{listed}]" if listed else entry.name, entry.name, options
+            yield kind, f"{entry.name}[{listed}]" if listed else entry.name, entry.name, options
 
 
 def _variants(component: Any) -> Iterator[dict[str, Any]]:
@@ -183,7 +193,16 @@ def _report(kind: str, label: str, name: str, options: dict[str, Any], progress:
         results.append(result)
         if result.failure is not None and check.name in ("traits", "compiles"):
             unusable.add(check.dim)  # all further checks would fail for the same reason
-    return Report(label, kind, distribution, tuple(results))
+    return Report(label, kind, distribution, tuple(results), measured=_measured(component))
+
+
+def _measured(component: Any) -> dict[str, WallResiduals]:
+    if not isinstance(component, WallTreatment) or 2 not in component.traits.dimensions:
+        return {}
+    try:
+        return {kernel: wall_residuals(component, kernel, ratio) for kernel, ratio in MEASURED_WITH.items()}
+    except SphframeError:  # the checks have its message
+        return {}
 
 
 def _failure(check: Check, component: Any) -> str | None:

@@ -1,7 +1,7 @@
 """The walls of the modified dynamic boundary condition with the velocities of its authors, 2022 and 2025."""
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Literal
 
 from sphframe import (
     BoundaryInterpolator,
@@ -104,7 +104,7 @@ class MDBC2025(WallTreatment):
     Source: English et al. (2025), doi:10.1016/j.compfluid.2025.106870, as read from the code.
     """
 
-    velocity: str = "published"
+    velocity: Literal["published", "corrected"] = "published"
     """"published" (kernel average) or "corrected" (first-order weights)"""
 
     def __post_init__(self) -> None:
