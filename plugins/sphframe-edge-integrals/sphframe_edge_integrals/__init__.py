@@ -24,7 +24,7 @@ class EdgeIntegrals(WallTreatment):
         drho_i/dt      += 2 rho_i sum_e (u_w - u_i).grad gamma_e
         no slip:  rho_i Du_i/Dt += -2 mu sum_e |grad gamma_e| (u_i - u_w)_t/z_e
 
-    mu is the viscosity of shear flow that follows from the artificial viscosity, 1/8 of its factor. In two dimensions,
+    mu is the viscosity of shear flow: 1/8 of the factor of the artificial viscosity, and the laminar one. In 2-D only,
     with straight and bent walls; curved ones are polygons. There are no wall particles.
 
     Departs from the papers: nothing is divided by gamma, and no pressure is clipped but by the tension policy of the
@@ -43,7 +43,7 @@ class EdgeIntegrals(WallTreatment):
 
     def parts(self, context: WallContext) -> WallParts:
         """Return the integrals over a piece of the wall."""
-        friction, nearest = float(context.no_slip) / 4.0, _NEAREST
+        friction, nearest = float(context.no_slip), _NEAREST
 
         def surface(fluid: FluidSide, wall: WallSide, edge: Edge, constants: Any) -> tuple[float, float, float]:
             nx, ny = wall.nx, wall.ny
@@ -51,7 +51,8 @@ class EdgeIntegrals(WallTreatment):
             across = u * nx + v * ny
             behind = wall.bx * nx + wall.by * ny
             push = (2.0 * fluid.pressure + edge.z * behind) * edge.weight
-            rub = friction * constants.viscosity * edge.weight / max(edge.z, nearest * constants.spacing)
+            twice_mu = 0.25 * constants.viscosity + constants.friction
+            rub = friction * twice_mu * edge.weight / max(edge.z, nearest * constants.spacing)
             fx = -push * nx - edge.solid * wall.bx + edge.moment * behind * ny - rub * (u - across * nx)
             fy = -push * ny - edge.solid * wall.by - edge.moment * behind * nx - rub * (v - across * ny)
             return fx, fy, -2.0 * across * edge.weight

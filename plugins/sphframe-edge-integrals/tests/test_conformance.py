@@ -12,7 +12,7 @@ from sphframe.testing import parametrize_with_checks, wall_residuals
 from sphframe.testing.wall_integrals import wall_integrals
 
 H, DX = 0.13, 0.1
-CONSTANTS = SimpleNamespace(smoothing_length=H, spacing=DX, viscosity=8.0)
+CONSTANTS = SimpleNamespace(smoothing_length=H, spacing=DX, viscosity=4.0, friction=1.0)
 TRIANGLE = np.array([[0.0, 0.0], [2.0, 0.3], [0.4, 1.5]])
 
 

@@ -65,7 +65,7 @@ class SemiAnalytical(WallTreatment):
         p_s          = sum_j Phi_j [p_j + b.(x_s - x_j)]
         no slip:       -(1/gamma_i) sum_s 2 mu |grad gamma_s| (u_i - u_w)_t/z_s
 
-    mu is the viscosity of shear flow that follows from the artificial viscosity, 1/8 of its factor. Density diffusion
+    mu is the viscosity of shear flow: 1/8 of the factor of the artificial one, and the laminar one. Density diffusion
     and viscosity of the fluid are divided by gamma, too. In two dimensions; curved walls are polygons.
 
     Departs from the paper: there are no vertex particles on the wall, and the first particles of the fluid are half a
@@ -89,7 +89,7 @@ class SemiAnalytical(WallTreatment):
 
     def parts(self, context: WallContext) -> WallParts:
         """Return the pressure of a segment, and the integrals over it."""
-        dim, friction, nearest = context.dim, float(context.no_slip) / 4.0, _NEAREST
+        dim, friction, nearest = context.dim, float(context.no_slip), _NEAREST
 
         def assign(
             fluid: Interpolated, wall: WallPoint, constants: Any, velocity: Array, viscous_velocity: Array
@@ -104,7 +104,8 @@ class SemiAnalytical(WallTreatment):
             u, v = fluid.u - wall.wall_u, fluid.v - wall.wall_v
             across = u * wall.nx + v * wall.ny
             push = (fluid.pressure + wall.pressure) * edge.weight
-            rub = friction * constants.viscosity * edge.weight / max(edge.z, nearest * constants.spacing)
+            twice_mu = 0.25 * constants.viscosity + constants.friction
+            rub = friction * twice_mu * edge.weight / max(edge.z, nearest * constants.spacing)
             fx = -push * wall.nx - rub * (u - across * wall.nx)
             fy = -push * wall.ny - rub * (v - across * wall.ny)
             return fx, fy, -across * edge.weight

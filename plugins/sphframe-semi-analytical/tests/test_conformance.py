@@ -8,7 +8,7 @@ from sphframe import Edge, FluidSide, Interpolated, WallContext, WallPoint, Wall
 from sphframe.kernels import compiled_kernel
 from sphframe.testing import parametrize_with_checks, wall_residuals
 
-CONSTANTS = SimpleNamespace(spacing=0.1, viscosity=8.0)
+CONSTANTS = SimpleNamespace(spacing=0.1, viscosity=4.0, friction=1.0)
 NOTHING = dict.fromkeys(WallSide._fields, 0.0)
 
 
@@ -41,7 +41,7 @@ def test_pressure_and_velocity_on_the_wall_enter_with_the_gradient_of_gamma():
     assert found[2] == pytest.approx(-(np.array([0.1, 0.2]) - u) @ gradient, rel=1e-14)
     rubbed = parts(no_slip=True).surface(FluidSide(200.0, 1000.0, *u, 0.0), wall, edge, CONSTANTS)
     along = np.array([0.8, 0.6])
-    expected = -2.0 * (CONSTANTS.viscosity / 8.0) * 2.5 * ((u - [0.1, 0.2]) @ along) / 0.05 * along
+    expected = -2.0 * 1.0 * 2.5 * ((u - [0.1, 0.2]) @ along) / 0.05 * along
     assert np.subtract(rubbed[:2], found[:2]) == pytest.approx(expected, rel=1e-12)
 
 
