@@ -1,5 +1,6 @@
-"""The tutorial for plugin authors, executed as written, outside of this repository."""
+"""The tutorials for plugin authors, executed as written, outside of this repository."""
 
+import ast
 import os
 import re
 import shlex
@@ -11,12 +12,12 @@ from pathlib import Path
 
 import pytest
 
-TUTORIAL = Path(__file__).parents[2] / "docs" / "tutorial_plugin.md"
+DOCS = Path(__file__).parents[2] / "docs"
 BLOCK = re.compile(r"^```(bash|python|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 class Reader:
-    """Executes the blocks of the tutorial in ``folder``."""
+    """Executes the blocks of a tutorial in ``folder``."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -79,10 +80,32 @@ class Reader:
             assert " ".join(line.split()) in seen, f"the tutorial shows {line!r}, but the output is\n{self.output}"
 
 
+def read(name: str, folder: Path) -> Reader:
+    reader = Reader(folder)
+    for language, block in BLOCK.findall((DOCS / name).read_text()):
+        getattr(reader, language)(block)
+    return reader
+
+
 @pytest.mark.slow
 def test_the_tutorial_works_as_written(tmp_path: Path) -> None:
-    reader = Reader(tmp_path)
-    for language, block in BLOCK.findall(TUTORIAL.read_text()):
-        getattr(reader, language)(block)
+    reader = read("tutorial_plugin.md", tmp_path)
     assert (reader.folder / "dam-break.nc").exists()
     shutil.rmtree(reader.folder)
+
+
+@pytest.mark.slow
+def test_the_tutorial_of_wall_treatments_works_as_written(tmp_path: Path) -> None:
+    reader = read("tutorial_treatment.md", tmp_path)
+    assert (reader.folder / "density-walls.nc").exists()
+
+
+def test_a_treatment_of_each_class_has_under_30_lines() -> None:
+    parts = set()
+    for language, block in BLOCK.findall((DOCS / "tutorial_treatment.md").read_text()):
+        for node in ast.parse(block).body if language == "python" else ():
+            if isinstance(node, ast.ClassDef) and node.bases:
+                assert node.end_lineno is not None
+                assert node.end_lineno - node.lineno + 1 < 30, node.name
+                parts |= {f.name for f in ast.walk(node) if isinstance(f, ast.FunctionDef)}
+    assert {"assign", "seen", "force", "rate", "surface"} <= parts

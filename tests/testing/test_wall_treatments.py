@@ -4,12 +4,14 @@ The numbers depend on the kernel alone. They are those of an independent program
 """
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from sphframe import Seen, WallParts, WallTraits, WallTreatment, create
 from sphframe.testing import BrokenPromiseError, checks_of, wall_residuals
+from sphframe.testing.verification import _installed
 from sphframe.testing.wall_treatments import poiseuille_error
 
 KERNELS = {"gaussian": 1.3, "wendland-c2": 2.0}
@@ -99,3 +101,38 @@ def test_a_treatment_that_does_not_compile_is_named():
     Broken.__qualname__ = "Broken"
     with pytest.raises(BrokenPromiseError, match=r"Broken.*colour"):
         checks_of(Broken())[0](Broken())
+
+
+def documented():
+    """The table of docs/walls.md: the cells of each treatment, and its measured cells by kernel."""
+    traits, measured = {}, {}
+    text = (Path(__file__).parents[2] / "docs" / "walls.md").read_text(encoding="utf-8")
+    for line in text.partition("| treatment | C |")[2].splitlines()[2:]:
+        if not line.startswith("|"):
+            break
+        name, *cells = (cell.strip() for cell in line.strip("|").split("|"))
+        if name:
+            label = name
+            traits[label] = dict(zip("CHSDJM", cells, strict=False))
+        measured[label, cells[6]] = cells[7:]
+    return traits, measured
+
+
+def test_the_documentation_has_the_promises_of_all_treatments():
+    traits, _ = documented()
+    for kind, label, name, options in _installed("wall_treatments"):
+        promised = create(kind, name, **options).traits
+        letters = {
+            "C": promised.exact_constant, "H": promised.exact_hydrostatic, "S": promised.exact_shear,
+            "D": promised.exact_normal, "J": promised.conjugate, "M": True,
+        }  # fmt: skip
+        assert {letter: cell == "yes" for letter, cell in traits[label].items()} == letters, label
+
+
+@pytest.mark.parametrize("name", ["fixed-ghosts", "mdbc-2022"])
+def test_the_documentation_has_the_measured_errors(name):
+    _, measured = documented()
+    for kernel, ratio in KERNELS.items():
+        residuals = wall_residuals(create("wall_treatments", name), kernel, ratio)
+        found = [[float(value) for value in cell.split("/")] for cell in measured[name, kernel]]
+        np.testing.assert_allclose(found, residuals, atol=1.1e-3)
