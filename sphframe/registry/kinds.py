@@ -58,6 +58,8 @@ DISTRIBUTIONS = {
     ("wall_treatments", "riemann-2017"): "sphframe-riemann",
     ("wall_treatments", "pair-mirror"): "sphframe-pair-mirror",
     ("wall_treatments", "distance-ratio"): "sphframe-distance-ratio",
+    ("wall_treatments", "edge-integrals"): "sphframe-edge-integrals",
+    ("wall_treatments", "usaw-2013"): "sphframe-semi-analytical",
     ("wall_treatments", "mdbc-2022"): "sphframe-mdbc",
     ("wall_treatments", "mdbc-2025"): "sphframe-mdbc",
     ("rigid_bodies", "solitary-wave-paddle"): "sphframe-waves",

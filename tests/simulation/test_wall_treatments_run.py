@@ -18,8 +18,10 @@ def started(treatment, integrator, threads):
     return Simulation(load_case("dam-break", None, given), threads=threads)
 
 
-@pytest.mark.parametrize("integrator", ["symplectic", "rk4"])
-@pytest.mark.parametrize("treatment", TREATMENTS)
+@pytest.mark.parametrize(
+    ("treatment", "integrator"),
+    [*((name, "symplectic") for name in TREATMENTS), ("pair-mirror", "rk4"), ("dynamic-2007", "rk4")],
+)
 def test_runs_continue_to_the_bit_on_any_number_of_threads(treatment, integrator):
     one, two = started(treatment, integrator, 1), started(treatment, integrator, numba.config.NUMBA_NUM_THREADS)
     for _ in range(15):
