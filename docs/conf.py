@@ -20,7 +20,7 @@ myst_heading_anchors = 3
 include_patterns = [
     "index.md", "commands.md", "shapes.md", "methods.md", "walls.md", "theory/*.md", "gallery.md", "gallery_shapes.md",
     "notebooks/*.ipynb",
-    "tutorial_plugin.md", "write_a_study.md", "api.md", "comparison.md", "performance.md",
+    "tutorial_plugin.md", "tutorial_treatment.md", "write_a_study.md", "api.md", "comparison.md", "performance.md",
     "reproduction/*.md", "development.md",
 ]  # fmt: skip
 nb_execution_mode = os.environ.get("SPHFRAME_DOCS_NOTEBOOKS", "force")  # "off" builds the pages without running them
