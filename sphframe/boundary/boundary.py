@@ -1,7 +1,6 @@
 """Boundary: the ghosts of all walls at the present time."""
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -9,6 +8,7 @@ from sphframe.arrays import Array, BoolArray
 from sphframe.boundary.corners import Corners, Shares
 from sphframe.boundary.movement import move_ghosts
 from sphframe.boundary.sides import WallSides
+from sphframe.boundary.wall_arrays import WallArrays
 from sphframe.geometry import Shape, Wall, ghosts_of, rotation_matrix, row_of, sides_of, wall_groups
 from sphframe.interfaces import EvaluationPoint, Motion, RigidBody, Status
 from sphframe.neighbours import Sight
@@ -17,27 +17,6 @@ _STATE = (
     "position", "mirror", "foot", "normal", "reflection", "velocity", "acceleration", "driving", "statuses",
     "wall_state",
 )  # fmt: skip
-
-
-class WallArrays(NamedTuple):
-    """What compiled loops read of the ghosts, one entry or row of each.
-
-    ``normal`` (g, dim) of the wall, out of the fluid, and ``distance`` (g,) from it, m; ``height`` (g,) of the
-    evaluation point above the wall, m; ``reflection`` (g, dim, dim); ``velocity`` (g, dim) of the wall, m/s; ``force``
-    (g, dim): rho0 (f - a_wall), N/m^3; ``volume`` (g,), m^dim; ``full`` (g,): filling of the evaluation point in the
-    midst of the fluid; ``viscous_velocity`` (g, dim) of the ghosts, m/s; ``state`` (g,) that the treatment advances.
-    """
-
-    normal: Array
-    distance: Array
-    height: Array
-    reflection: Array
-    velocity: Array
-    force: Array
-    volume: Array
-    full: Array
-    viscous_velocity: Array
-    state: Array
 
 
 class Boundary:
@@ -102,8 +81,8 @@ class Boundary:
         self.foot = drawn.foot.copy()
         self.normal = drawn.normal.copy()
         self.reflection = self._drawn_reflection.copy()
-        at_mirror = evaluation_point in (EvaluationPoint.MIRROR, EvaluationPoint.EXTRAPOLATED)
-        self.points = self.mirror if at_mirror else self.position
+        self._evaluation_point = evaluation_point
+        self.points = self.position if evaluation_point.at_ghost else self.mirror
         self.lifts = self.position - self.points
         self.depth = np.einsum("gi,gi->g", self.position - self.foot, self.normal)
         height = np.einsum("gi,gi->g", self.foot - self.points, self.normal)
@@ -122,6 +101,13 @@ class Boundary:
     def count(self) -> int:
         """Number of ghosts."""
         return len(self.wall)
+
+    @property
+    def lift_of_weights(self) -> Array | None:
+        """The argument ``lift`` of the weights (g, dim): the lift or the normal; None where they take none."""
+        if not self._evaluation_point.takes_lift:
+            return None
+        return self.normal if self._evaluation_point.at_ghost else self.lifts
 
     @property
     def sight(self) -> Sight | None:

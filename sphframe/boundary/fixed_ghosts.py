@@ -58,9 +58,8 @@ class FixedGhosts(WallTreatment):
         """Return the assignment above."""
         assert context.interpolator is not None
         dim, point = context.dim, context.interpolator.traits.evaluation_point
-        at_ghost = point in (EvaluationPoint.GHOST, EvaluationPoint.DIRECTED)
-        balanced = context.balanced_lift or at_ghost
-        scaled = context.balanced_lift and context.corrected_velocity and not at_ghost
+        balanced = context.balanced_lift or point.at_ghost
+        scaled = context.balanced_lift and context.corrected_velocity and not point.at_ghost
 
         def assign(
             fluid: Interpolated, wall: WallPoint, constants: Any, velocity: Array, viscous_velocity: Array

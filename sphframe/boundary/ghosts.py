@@ -25,9 +25,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sphframe.arrays import Array
+from sphframe.boundary.wall_arrays import wall_point
 from sphframe.compiled import local_array
 from sphframe.compiled.stand_ins import ASSIGN, COLUMNS, DENSITY, DIM, FALLBACK, SUPPORT, VALUE, WEIGHTS
-from sphframe.interfaces import Interpolated, WallPoint
+from sphframe.interfaces import Interpolated
 from sphframe.interfaces.traits import DRY, OK
 
 # parts bound by specialise()
@@ -42,6 +43,8 @@ SEEN_ENOUGH = 0.05
 FADED = 0.35
 """filling at the evaluation point, over that in the midst of the fluid, at which a ghost that FADES has no share"""
 
+CHUNKS = 8 * int(numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
+"""number of parts of the loops over ghosts, each with scratch memory of its own"""
 BLOCK = 16
 """number of consecutive ghosts, whose neighbours are mostly the same, that a thread computes in one go"""
 
@@ -65,12 +68,11 @@ class Scratch(NamedTuple):
     @classmethod
     def of(cls, capacity: int, dim: int) -> "Scratch":
         """Return memory for neighbourhoods of up to ``capacity`` particles."""
-        chunks = 8 * int(numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
         return cls(
-            np.zeros((chunks, capacity, dim)),
-            np.zeros((chunks, 4, capacity)),
-            np.zeros((chunks, capacity), np.uint32),
-            np.zeros((chunks, dim)),
+            np.zeros((CHUNKS, capacity, dim)),
+            np.zeros((CHUNKS, 4, capacity)),
+            np.zeros((CHUNKS, capacity), np.uint32),
+            np.zeros((CHUNKS, dim)),
         )
 
 
@@ -98,7 +100,6 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
         lift = scratch.lift[chunk]
         mean_offset = local_array(DIM)
         mean_velocity = local_array(DIM)
-        velocity_offset = local_array(DIM)
         for block in range(chunk, blocks, chunks):  # wet ghosts are consecutive: each chunk gets some
             for g in range(block * BLOCK, min((block + 1) * BLOCK, ghosts)):
                 status = OK
@@ -164,27 +165,19 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                     for d in range(DIM):
                         lift[d] = walls.normal[g, d] if DIRECTED else 0.0
                         mean_velocity[d] = 0.0
-                        velocity_offset[d] = 0.0
                     around = offsets[:n], distances[:n], values[:n], volumes[:n]
                     if VELOCITY_WEIGHTS(*around, support, lift, weights[:n]) != OK:
                         VELOCITY_FALLBACK(*around, support, lift, weights[:n])
                     for k in range(n):
                         for d in range(DIM):
-                            velocity_offset[d] += weights[k] * offsets[k, d]
                             mean_velocity[d] += weights[k] * rows[members[k], COLUMNS.u + d]
-                else:
-                    for d in range(DIM):
-                        velocity_offset[d] = mean_offset[d]
                 at_ghost = EXTRAPOLATED and n > 0 and status == OK
                 if at_ghost:
                     pressure = extrapolated
 
                 row = fluid_count + g
-                fluid = Interpolated(status, n, total, pressure, at_ghost, mean_offset, mean_velocity, velocity_offset)
-                wall = WallPoint(
-                    walls.normal[g], walls.distance[g], walls.height[g], lifts[g], walls.reflection[g],
-                    walls.velocity[g], walls.force[g], walls.state[g],
-                )  # fmt: skip
+                fluid = Interpolated(status, n, total, pressure, at_ghost, mean_offset, mean_velocity)
+                wall = wall_point(walls, lifts, g)
                 velocity = rows[row, COLUMNS.u : COLUMNS.u + DIM]
                 pressure, share = ASSIGN(fluid, wall, parameters, velocity, walls.viscous_velocity[g])
                 if FADES and walls.full[g] > SEEN_ENOUGH:

@@ -18,7 +18,7 @@ from sphframe.arrays import Array, IntArray
 from sphframe.compiled import specialise
 from sphframe.compiled.stand_ins import DIM, FALLBACK, SUPPORT, VALUE, WEIGHTS
 from sphframe.errors import InputError
-from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint, Kernel
+from sphframe.interfaces import BoundaryInterpolator, Kernel
 from sphframe.interfaces.traits import DRY, OK
 from sphframe.kernels import compiled_kernel
 from sphframe.registry import create
@@ -62,7 +62,8 @@ def operator(
     points: (m, dim) or (dim,), m: evaluation points, dim 2 or 3.
     positions: (n, dim), m: fluid particles; ``volumes``: (n,) or one number, m^dim: V_j = m_j / rho_j.
     smoothing_length: h, m; ``kernel``: the name of a kernel or a kernel.
-    lift: (m, dim) or (dim,), m: from each point to its ghost, for a method that extrapolates; zero by default.
+    lift: (m, dim) or (dim,), m: from each point to its ghost, for a method that extrapolates; zero by default. For a
+        method that evaluates at the ghost along the wall's normal, this unit normal.
 
     Returns
     -------
@@ -180,7 +181,7 @@ def _volumes(given: ArrayLike, positions: Array, dim: int) -> Array:
 
 
 def _lifts(given: ArrayLike | None, points: Array, interpolator: BoundaryInterpolator) -> Array:
-    if given is not None and interpolator.traits.evaluation_point is not EvaluationPoint.EXTRAPOLATED:
+    if given is not None and not interpolator.traits.evaluation_point.takes_lift:
         raise InputError(
             f"{type(interpolator).__name__} does not extrapolate, so it takes no lift: leave it out, or give the"
             " positions of the ghosts as points if their own neighbourhood is meant"

@@ -8,9 +8,11 @@ import numpy as np
 
 from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
+from sphframe.boundary.ghosts import CHUNKS
+from sphframe.boundary.wall_arrays import wall_point
 from sphframe.compiled import specialise
 from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, RATE, SUPPORT
-from sphframe.interfaces import Neighbours, RateFunction, WallPoint
+from sphframe.interfaces import Neighbours, RateFunction
 from sphframe.neighbours import NeighbourLists
 from sphframe.physics import LoopParameters
 
@@ -26,15 +28,18 @@ class WallStates:
         self._boundary = boundary
         self._rates, self._start, self._total = (np.zeros_like(self._state) for _ in range(3))
         self._loop = None if rate is None else specialise(wall_rates, {**parts, "RATE": rate})
+        self._scalars, self._vectors = np.empty((CHUNKS, 8, 5)), np.empty((CHUNKS, 2, 8, boundary.dim))
 
     def evaluate(self, rows: Array, lists: NeighbourLists, parameters: LoopParameters) -> None:
         """Compute the rates from the fluid in ``rows``."""
         if self._loop is not None:
-            chunks, capacity = 8 * int(numba.config.NUMBA_NUM_THREADS), lists.points.shape[1]  # type: ignore[attr-defined]
+            capacity = lists.points.shape[1]
+            if capacity > self._scalars.shape[1]:
+                self._scalars = np.empty((CHUNKS, capacity, 5))
+                self._vectors = np.empty((CHUNKS, 2, capacity, self._boundary.dim))
             self._loop(
                 rows, lists.points, lists.point_counts, self._boundary.points, self._boundary.lifts,
-                self._boundary.arrays, parameters, np.empty((chunks, capacity, 5)),
-                np.empty((chunks, 2, capacity, self._boundary.dim)), self._rates,
+                self._boundary.arrays, parameters, self._scalars, self._vectors, self._rates,
             )  # fmt: skip
 
     def hold(self) -> None:
@@ -93,8 +98,4 @@ def wall_rates(  # type: ignore[no-untyped-def]
                 near = Neighbours(
                     offsets[:n], distances[:n], slopes[:n], volumes[:n], pressures[:n], densities[:n], velocities[:n]
                 )
-                wall = WallPoint(
-                    walls.normal[g], walls.distance[g], walls.height[g], lifts[g], walls.reflection[g],
-                    walls.velocity[g], walls.force[g], walls.state[g],
-                )  # fmt: skip
-                rates[g] = RATE(near, wall, parameters)
+                rates[g] = RATE(near, wall_point(walls, lifts, g), parameters)

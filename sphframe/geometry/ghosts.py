@@ -152,6 +152,7 @@ class PlaneWalls(WallGroup):
         outlines = {wall.name: wall.outline(CHORD * spacing) for wall in walls.values()}
         self.domain = fluid_domain(outlines, fluid, spacing, one_sided=single, two_sided=lines)
         self._cut: dict[int, tuple[BoolArray, list[Chart]]] = {}
+        self._filled: dict[tuple[float, int], tuple[GhostPoints, IntArray, IntArray]] = {}
 
     def _charts(self, layers: int) -> tuple[BoolArray, list[Chart]]:
         """Return which edges are thin, and the charts; no charts where no wall is thinner than the layers."""
@@ -180,7 +181,12 @@ class PlaneWalls(WallGroup):
         return Sides(ends, tips, number, thin[edges], ghost_chart, kind)
 
     def _made(self, spacing: float, layers: int) -> tuple[GhostPoints, IntArray, IntArray]:
-        """Return the ghosts, their charts (g,) and the kinds (g,) of their walls."""
+        """Return the ghosts, their charts (g,) and the kinds (g,) of their walls; made once, for ghosts and sides."""
+        if (spacing, layers) not in self._filled:
+            self._filled[spacing, layers] = self._make(spacing, layers)
+        return self._filled[spacing, layers]
+
+    def _make(self, spacing: float, layers: int) -> tuple[GhostPoints, IntArray, IntArray]:
         charts = self._charts(layers)[1]
         if not charts:
             ghosts, edge = self._ghosts_behind(self.domain, spacing, layers)

@@ -18,12 +18,11 @@ import numpy as np
 
 from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.errors import InputError
+from sphframe.geometry.domain import OPEN
 from sphframe.geometry.fill import fill
 from sphframe.geometry.wall_solids import WallSolid
 from sphframe.geometry.walls import Wall
 
-OPEN = -1
-"""index of the wall of a triangle where there is no wall"""
 _ACROSS = 0.25
 """distance over the spacing by which a particle may lie on the wrong side of a wall, as chords replace curves"""
 
@@ -57,10 +56,7 @@ class SolidDomain:
 
     def contains(self, points: Array) -> BoolArray:
         """Return whether each of ``points`` (n, 3), m, lies in the domain."""
-        import igl  # takes half a second to import, and only solids need it
-
-        vertices, triangles = self._arrays
-        return np.asarray(igl.fast_winding_number(vertices, triangles, np.ascontiguousarray(points)) > 0.5)
+        return _within(*self._arrays, points)
 
     def feet(self, points: Array) -> Feet:
         """Return the points of the boundary nearest to ``points`` (n, 3), m."""
@@ -143,9 +139,8 @@ def _holds(name: str, shape: WallSolid, position: Array, spacing: float) -> bool
     """
     import igl
 
-    position = np.ascontiguousarray(position)
     vertices, triangles = np.ascontiguousarray(shape.vertices), np.ascontiguousarray(shape.triangles, np.int64)
-    inside = igl.fast_winding_number(vertices, triangles, position) > 0.5
+    inside = _within(vertices, triangles, position)
     holds = bool(2 * np.count_nonzero(inside) > len(position))
     wrong = position[inside != holds]
     if len(wrong):
@@ -158,6 +153,13 @@ def _holds(name: str, shape: WallSolid, position: Array, spacing: float) -> bool
                 ' "difference"'
             )
     return holds
+
+
+def _within(vertices: Array, triangles: IntArray, points: Array) -> BoolArray:
+    """Return whether each of ``points`` (n, 3) lies within a closed surface."""
+    import igl  # takes half a second to import, and only solids need it
+
+    return np.asarray(igl.fast_winding_number(vertices, triangles, np.ascontiguousarray(points)) > 0.5)
 
 
 def _reached(frame: Any, bodies: Sequence[_Body], holds: BoolArray, positions: Sequence[Array]) -> Any:

@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from sphframe.arrays import Array, BoolArray, IntArray
+from sphframe.geometry.domain import OPEN, SHARP
 from sphframe.geometry.ghosts import NONE
-from sphframe.geometry.solid_domain import OPEN, Feet, SolidDomain
-from sphframe.geometry.wall_solids import SHARP
+from sphframe.geometry.solid_domain import Feet, SolidDomain
 
 
 class Place(NamedTuple):

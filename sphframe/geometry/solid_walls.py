@@ -13,10 +13,11 @@ import numpy as np
 
 from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.geometry.columns import straight_faces
+from sphframe.geometry.domain import OPEN
 from sphframe.geometry.fill import fill_mesh
 from sphframe.geometry.ghosts import End, GhostPoints, Panels, WallGroup
 from sphframe.geometry.lattice import Lattice
-from sphframe.geometry.solid_domain import OPEN, solid_domain
+from sphframe.geometry.solid_domain import solid_domain
 from sphframe.geometry.solid_edges import SolidEdges
 from sphframe.geometry.walls import Wall
 

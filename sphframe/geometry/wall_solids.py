@@ -6,9 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from sphframe.arrays import Array, BoolArray, IntArray
-
-SHARP = np.radians(30.0)
-"""smallest angle between two triangles that makes an edge; smaller ones approximate a curve"""
+from sphframe.geometry.domain import SHARP
 
 
 class WallSolid(NamedTuple):

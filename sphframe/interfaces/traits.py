@@ -50,6 +50,16 @@ class EvaluationPoint(enum.StrEnum):
     DIRECTED = "directed"
     """at the ghost particle itself; ``lift`` is the wall's unit normal there, out of the fluid (Hashemi et al. 2012)"""
 
+    @property
+    def at_ghost(self) -> bool:
+        """Whether it is the ghost particle itself, not its mirror point."""
+        return self in (EvaluationPoint.GHOST, EvaluationPoint.DIRECTED)
+
+    @property
+    def takes_lift(self) -> bool:
+        """Whether the weights depend on ``lift``."""
+        return self in (EvaluationPoint.EXTRAPOLATED, EvaluationPoint.DIRECTED)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Traits:

@@ -33,7 +33,7 @@ class Interpolated(NamedTuple):
     ``status`` of the method, see :class:`sphframe.Status`; ``neighbours``: their number, 0 where the point is dry;
     ``total``: sum_j Phi_j; ``pressure``: sum_j Phi_j p_j, Pa, at the ghost itself if ``extrapolated``; ``offset``
     (dim,): sum_j Phi_j (x_j - r), m; ``velocity`` (dim,): sum_j Phi_j u_j, m/s, with the weights of the method for
-    velocities if there is one; ``velocity_offset`` (dim,): the offset with these weights.
+    velocities if there is one.
     """
 
     status: int
@@ -43,7 +43,6 @@ class Interpolated(NamedTuple):
     extrapolated: bool
     offset: Array
     velocity: Array
-    velocity_offset: Array
 
 
 class WallPoint(NamedTuple):

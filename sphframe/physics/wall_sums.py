@@ -26,7 +26,7 @@ def wall_sums(  # type: ignore[no-untyped-def]
 ):
     """Add the sums over wall particles to the density rates or, without CONTINUITY, to the accelerations ``rates``.
 
-    ``walls``: :class:`~sphframe.boundary.boundary.WallArrays`; all others as in :func:`fluid_sums`.
+    ``walls``: :class:`~sphframe.boundary.wall_arrays.WallArrays`; all others as in :func:`fluid_sums`.
     """
     limit = parameters.support * parameters.support
     per_h2 = SUPPORT * SUPPORT / limit

@@ -15,7 +15,7 @@ from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.operator import operator
 from sphframe.cases import Case
 from sphframe.errors import SimulationError
-from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint, Kernel, Status
+from sphframe.interfaces import BoundaryInterpolator, Kernel, Status
 from sphframe.registry import Entry, find
 from sphframe.simulation.system import FluidSystem
 
@@ -176,7 +176,6 @@ def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator | None,
     points = boundary.points
     if not np.all(np.isfinite(points)) or n == 0:
         return
-    lift = boundary.lifts if traits.evaluation_point is EvaluationPoint.EXTRAPOLATED else None
     matrix, statuses = operator(
         interpolator,
         points,
@@ -184,7 +183,7 @@ def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator | None,
         fluid[:, columns.volume],
         smoothing_length=system.parameters.smoothing_length,
         kernel=kernel,
-        lift=lift,
+        lift=boundary.lift_of_weights,
     )
     sums, lowest = matrix.sum(axis=1), np.zeros(len(points))
     rows = np.repeat(np.arange(len(points)), np.diff(matrix.indptr))

@@ -1,6 +1,8 @@
 """Simulation: the system at the start of a case: particles on their lattice, ghosts, and the pressure at rest."""
 
-from typing import NamedTuple
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -45,26 +47,32 @@ def loop_parameters(case: Case, scene: Scene, components: Components) -> LoopPar
     )
 
 
-class Drawn(NamedTuple):
+@dataclass(frozen=True)
+class Drawn:
     """Walls and fluid as drawn: ``position`` (n, dim), m, and ``volume`` (n,) of particles of the ``region`` (n,)."""
 
     boundary: Boundary
     position: Array
     volume: Array
     region: IntArray
-    filling: WallFilling
+    _filling: Callable[[], WallFilling]
+
+    @cached_property
+    def filling(self) -> WallFilling:
+        """How fluid and ghosts fill the kernel beside the walls."""
+        return self._filling()
 
 
 def drawn(case: Case, scene: Scene, components: Components, parameters: LoopParameters) -> Drawn:
-    """Return ghosts and particles of ``scene``, and how they fill the kernel beside the walls."""
+    """Return ghosts and particles of ``scene``."""
     spacing = case.particle_spacing
     fills = [fill(region, spacing) for region in scene.fluid]
     position = np.vstack([filled.position for filled in fills])
     volume = np.concatenate([filled.volume for filled in fills])
     boundary = initial_boundary(case, scene, components, parameters)
     region = np.repeat(np.arange(len(fills)), [len(filled.volume) for filled in fills])
-    filling = filling_beside_walls(boundary, position, volume, spacing, components, parameters)
-    return Drawn(boundary, position, volume, region, filling)
+    beside_walls = partial(filling_beside_walls, boundary, position, volume, spacing, components, parameters)
+    return Drawn(boundary, position, volume, region, beside_walls)
 
 
 def initial_system(case: Case, scene: Scene, components: Components, parameters: LoopParameters) -> FluidSystem:
@@ -75,9 +83,10 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     InputError: when a body is too light, or fluid and ghosts leave empty space beside walls.
     """
     dim, spacing = case.dimension, case.particle_spacing
-    boundary, position, volumes, members, wall_filling = drawn(case, scene, components, parameters)
+    start = drawn(case, scene, components, parameters)
     if components.wall_treatment.geometry is WallGeometry.LAYERS:
-        check_filling(wall_filling, scene.walls, refuse=case.guards.filling == "stop")
+        check_filling(start.filling, scene.walls, refuse=case.guards.filling == "stop")
+    boundary, position, members = start.boundary, start.position, start.region
     half_edge = 0.5 * components.wall_treatment.row_spacing * spacing
     lists = NeighbourLists(
         dim,
@@ -101,7 +110,7 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
         for index, region in enumerate(scene.fluid):
             if region.pressure is not None:
                 pressure[members == index] = region.pressure
-    rows = _initial_rows(position, volumes, pressure, boundary, components, parameters)
+    rows = _initial_rows(position, start.volume, pressure, boundary, components, parameters)
     for index, region in enumerate(scene.fluid):
         if region.velocity is not None:
             rows[: len(position)][members == index, Columns.of(dim).velocity] = region.velocity

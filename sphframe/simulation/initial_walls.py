@@ -7,9 +7,11 @@ from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.filling import Filling
 from sphframe.cases import Case, Scene
+from sphframe.compiled import specialise
 from sphframe.errors import InputError
 from sphframe.interfaces import EvaluationPoint, WallGeometry
-from sphframe.physics import LoopParameters
+from sphframe.particles import Columns
+from sphframe.physics import LoopParameters, invert_pressure
 from sphframe.simulation.components import Components
 from sphframe.simulation.filling_check import filling_by
 
@@ -71,7 +73,10 @@ def hydrostatic_densities(
     """Return densities of ghosts (g,) in equilibrium with the nearest particle of the fluid; rho0 where it is far."""
     distance, nearest = cKDTree(position).query(boundary.position)
     higher = boundary.position[:, -1] - position[nearest, -1]
-    rho0, c0 = parameters.reference_density, parameters.sound_speed
-    found = np.maximum(pressure[nearest] - rho0 * parameters.gravity * higher, 0.0)
-    found[distance > parameters.support] = 0.0
-    return np.array([components.parts["DENSITY"](p, rho0, c0) for p in found])
+    columns = Columns.of(boundary.dim)
+    rows = columns.zeros(boundary.count)
+    found = np.maximum(pressure[nearest] - parameters.reference_density * parameters.gravity * higher, 0.0)
+    rows[:, columns.pressure] = np.where(distance > parameters.support, 0.0, found)
+    specialise(invert_pressure, components.parts, parallel=False)(rows, boundary.count, parameters)
+    density: Array = rows[:, columns.density]
+    return density

@@ -177,9 +177,8 @@ def made_with(case: Case) -> dict[str, str]:
     components = Components.of_case(case)
     walls = (getattr(components.walls, part.name) for part in dataclasses.fields(components.walls))
     pieces = [fingerprint(part) if callable(part) else str(part) for part in walls]
-    if components.interpolator is not None:
-        weights = components.interpolator.point_weights(components.compiled_kernel, case.dimension)
-        pieces.append(fingerprint(weights))
+    methods = [method for method in (components.interpolator, components.velocity_interpolator) if method is not None]
+    pieces += [fingerprint(method.point_weights(components.compiled_kernel, case.dimension)) for method in methods]
     return {**distributions(case), "method": " ".join(pieces)}
 
 

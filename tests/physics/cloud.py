@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from sphframe.boundary.boundary import WallArrays
+from sphframe.boundary.wall_arrays import WallArrays
 from sphframe.compiled import LANES, specialise
 from sphframe.interfaces import CompiledKernel
 from sphframe.kernels import compiled_kernel

@@ -8,7 +8,7 @@ from sphframe.boundary.filling import Filling
 from sphframe.boundary.fixed_ghosts import FixedGhosts
 from sphframe.boundary.operator import operator
 from sphframe.geometry import Box, PolygonWall
-from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint, WallContext
+from sphframe.interfaces import BoundaryInterpolator, WallContext
 from sphframe.kernels import compiled_kernel
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
@@ -32,14 +32,13 @@ def check_solver_agrees(method: BoundaryInterpolator, dim: int) -> None:
         return
     boundary, rows = _filled_pool(method)
     n, columns = len(rows) - boundary.count, Columns.of(dim)
-    lift = boundary.lifts if method.traits.evaluation_point is EvaluationPoint.EXTRAPOLATED else None
     matrix, statuses = operator(
         method,
         boundary.points,
         rows[:n, columns.position],
         rows[:n, columns.volume],
         smoothing_length=_SMOOTHING_LENGTH,
-        lift=lift,
+        lift=boundary.lift_of_weights,
     )
     for g in np.flatnonzero(statuses != boundary.statuses)[:1]:
         raise BrokenPromiseError(
