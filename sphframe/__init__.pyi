@@ -20,6 +20,7 @@ from sphframe.interfaces import OK as OK
 from sphframe.interfaces import SINGULAR as SINGULAR
 from sphframe.interfaces import TOO_FEW as TOO_FEW
 from sphframe.interfaces import AssignFunction as AssignFunction
+from sphframe.interfaces import BodyForce as BodyForce
 from sphframe.interfaces import BoundaryInterpolator as BoundaryInterpolator
 from sphframe.interfaces import CompiledKernel as CompiledKernel
 from sphframe.interfaces import Edge as Edge

@@ -46,7 +46,7 @@ def warm_up(simulation: Simulation) -> None:
 
 def run_to_developed_flow(simulation: Simulation, tell: Callable[[float], None]) -> None:
     """Run a dam break until the flow is developed, and call ``tell`` with the part that is done after each step."""
-    until = DEVELOPED * math.sqrt(simulation.scene.depth / simulation.case.gravity)
+    until = DEVELOPED * math.sqrt(simulation.scene.depth / simulation.parameters.gravity)
     while simulation.time < until:
         simulation.advance()
         tell(simulation.time / until)

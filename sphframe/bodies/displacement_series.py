@@ -77,8 +77,8 @@ class DisplacementSeries(RigidBody):
         if self.interpolation not in ("monotone", "linear"):
             raise InputError(f"interpolation = {self.interpolation!r} must be 'monotone' or 'linear'")
         name = str(self.path or "contents")
-        text = _read(Path(str(self.path))) if self.contents is None else self.contents
-        table, header = _table(name, text)
+        text = read_text(Path(str(self.path))) if self.contents is None else self.contents
+        table, header = numbers_of(name, text)
         columns = self.columns or header or _default_columns(name, table)
         time, displacement = _in_si_units(name, table, columns)
         object.__setattr__(self, "_names", columns.keys() & _COORDINATES)
@@ -90,7 +90,7 @@ class DisplacementSeries(RigidBody):
         if options.get("contents") is not None or not isinstance(options.get("path"), str | Path):
             return dict(options)
         path = Path(options["path"])
-        return {**options, "contents": _read(folder / path if (folder / path).is_file() else path)}
+        return {**options, "contents": read_text(folder / path if (folder / path).is_file() else path)}
 
     def placed(self, surroundings: Surroundings) -> "DisplacementSeries":
         """Return the body, whose columns must be those of the dimension."""
@@ -108,14 +108,20 @@ class DisplacementSeries(RigidBody):
         return Motion(x, inside * u, inside * a)
 
 
-def _read(path: Path) -> str:
+def read_text(path: Path) -> str:
+    """Return the text of a file.
+
+    Raises
+    ------
+    InputError: when it cannot be read.
+    """
     try:
         return path.read_text(encoding="utf-8-sig")
     except (OSError, ValueError) as error:
-        raise InputError(f"cannot read the displacement series {path}: {error}") from None
+        raise InputError(f"cannot read the series {path}: {error}") from None
 
 
-def _table(name: str, text: str) -> tuple[Array, dict[str, str] | None]:
+def numbers_of(name: str, text: str) -> tuple[Array, dict[str, str] | None]:
     """Return the numbers of a file, and its columns with their units if a comment above the numbers declares them."""
     rows: list[list[float]] = []
     header = None

@@ -8,6 +8,7 @@ import numpy as np
 
 from sphframe.arrays import Array
 from sphframe.geometry import directions_to_world, moments, rotation_matrix, turning_velocities
+from sphframe.interfaces.body_force import gravity_vector
 from sphframe.interfaces.rigid_body import Motion, RigidBody, Surroundings
 
 _STANDARD_GRAVITY = 9.81
@@ -36,7 +37,7 @@ class Free(RigidBody):
     inertia: I about the centre of mass, as drawn: kg m in 2-D; in 3-D kg m^2, three moments about axes parallel to
         those of space, or a matrix.
     centre: centre of mass as drawn, m.
-    gravity: m/s^2, downwards along the last axis, in place of that of the case.
+    gravity: m/s^2, downwards along the last axis or a vector, in place of that of the case.
     density: kg/m^3, in place of the mass.
     hinge: fixed point about which the body turns, as drawn, m.
     held: coordinates that do not change: x, y, angle in 2-D; x, y, z, rx, ry, rz in 3-D.
@@ -53,7 +54,7 @@ class Free(RigidBody):
     mass: float | None = None
     inertia: float | tuple[float, float, float] | tuple[tuple[float, float, float], ...] | None = None
     centre: tuple[float, ...] | None = None  # type: ignore[assignment]  # None until the body is placed
-    gravity: float | None = None
+    gravity: float | tuple[float, ...] | None = None
     density: float | None = None
     hinge: tuple[float, ...] | None = None
     held: tuple[str, ...] = ()
@@ -67,7 +68,7 @@ class Free(RigidBody):
             value = getattr(self, name)
             if value is not None and not value > 0.0:
                 raise ValueError(f"{name} = {value} must be positive")
-        if self.gravity is not None and not self.gravity >= 0.0:
+        if isinstance(self.gravity, int | float) and not self.gravity >= 0.0:
             raise ValueError(f"gravity = {self.gravity} must not be negative")
         if self.mass is not None and self.density is not None:
             raise ValueError(f"mass = {self.mass} and density = {self.density} are both given; give one of them")
@@ -100,6 +101,7 @@ class Free(RigidBody):
         if set(self.held) - set(names) or len(self.initial_velocity) > len(names):
             raise ValueError(f"held and initial_velocity refer to the coordinates {', '.join(names)} in {dim}-D")
         gravity = surroundings.gravity if self.gravity is None else self.gravity
+        gravity_vector(gravity, dim)
         return replace(self, mass=mass, inertia=inertia, centre=centre, gravity=gravity, density=None)
 
     def motion(self, time: float, position: Array, velocity: Array, load: Array) -> Motion:
@@ -107,7 +109,7 @@ class Free(RigidBody):
         dim, mass = (2 if len(position) == 3 else 3), float(self.mass or 0.0)
         acceleration = np.empty_like(load)
         acceleration[:dim] = load[:dim] / mass
-        acceleration[dim - 1] -= _STANDARD_GRAVITY if self.gravity is None else self.gravity
+        acceleration[:dim] -= -gravity_vector(_STANDARD_GRAVITY if self.gravity is None else self.gravity, dim)
         position, velocity = position.copy(), velocity.copy()
         held = np.isin(_COORDINATES[dim], self.held)
         velocity[held] = 0.0

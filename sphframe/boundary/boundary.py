@@ -124,10 +124,18 @@ class Boundary:
         """Largest speed of a wall, m/s."""
         return float(np.sqrt(np.square(self.velocity).sum(axis=1).max(initial=0.0))) if self.bodies else 0.0
 
-    def move(self, motions: Sequence[Motion], rows: Array, driving_force: Array, density: float) -> None:
+    def move(
+        self,
+        motions: Sequence[Motion],
+        rows: Array,
+        driving_force: Array,
+        density: float,
+        gradient: Array | None = None,
+    ) -> None:
         """Put ghosts (their ``rows``) and mirror points where ``motions`` carries them; set the driving forces.
 
-        ``driving_force`` (dim,) is rho0 f, N/m^3; ``density`` is rho0.
+        ``driving_force`` (dim,) is rho0 f at the origin, N/m^3, and ``gradient`` (dim, dim) that of f, 1/s^2, None for
+        a uniform force; ``density`` is rho0.
         """
         if len(motions):
             position = np.array([motion.position for motion in motions])
@@ -145,7 +153,17 @@ class Boundary:
                 self.sides.move(motions)
         np.multiply(self.acceleration, -density, out=self.driving)
         self.driving += driving_force
+        if gradient is not None:
+            self.driving += density * self.foot @ gradient.T
         rows[:, : self.dim] = self.position
+
+    def references(self, motions: Sequence[Motion]) -> Array:
+        """Return the points (walls, dim) to which moments refer: the centre of the wall's body, or the origin, m."""
+        centres = np.zeros((len(self.wall_body), self.dim))
+        for wall, body in enumerate(self.wall_body):
+            if body >= 0:
+                centres[wall] = self.centres[body] + motions[body].position[: self.dim]
+        return centres
 
     def corner_shares(self, motions: Sequence[Motion]) -> Shares:
         """Return the second walls that take part of the forces on ghosts."""

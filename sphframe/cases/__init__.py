@@ -4,7 +4,7 @@ from sphframe.cases.case import Case, Guards, Parameter, parameters_of
 from sphframe.cases.checks import CaseWarning, check_case
 from sphframe.cases.custom import Custom
 from sphframe.cases.load import load_case, read_toml
-from sphframe.cases.parameters import Component, Derived, quantity, with_default, written
+from sphframe.cases.parameters import Component, Derived, downward_gravity, quantity, with_default, written
 from sphframe.cases.scene import Diagnostic, Gauge, Probe, Scene, WallPart
 from sphframe.interfaces import Fields
 
@@ -23,6 +23,7 @@ __all__ = [
     "Scene",
     "WallPart",
     "check_case",
+    "downward_gravity",
     "load_case",
     "parameters_of",
     "quantity",

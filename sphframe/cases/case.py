@@ -3,15 +3,23 @@
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
-from typing import Any, ClassVar, Literal, NamedTuple, Self
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, field_validator, model_validator
 
+from sphframe.arrays import Array
 from sphframe.cases.explain import explain
 from sphframe.cases.parameters import Component, Derived, quantity, unit_of, written
 from sphframe.cases.scene import Scene
 from sphframe.errors import InputError
+from sphframe.interfaces.body_force import gravity_vector
 from sphframe.representation import html_table
+
+Gravity = Annotated[
+    Annotated[float, Field(ge=0), Tag("<number>")] | Annotated[tuple[float, ...], Tag("<vector>")],
+    Discriminator(lambda given: "<vector>" if isinstance(given, list | tuple) else "<number>"),
+]
+"""a number, downwards along the last axis, or a vector"""
 
 
 class Guards(BaseModel):
@@ -65,7 +73,10 @@ class Case(BaseModel, ABC):
         le=3.0,
     )
     reference_density: float = quantity(1000.0, "kg m-3", "density of the fluid at zero pressure", gt=0)
-    gravity: float = quantity(9.81, "m s-2", "acceleration of gravity, downwards along the last axis", ge=0)
+    gravity: Gravity = quantity(9.81, "m s-2", "acceleration of gravity, downwards along the last axis, or a vector")
+    acceleration: Component = quantity(
+        Component(name="uniform"), "m s-2", "further body force, from the start on: a vector, or a body force by name"
+    )
     sound_speed: float | None = quantity(None, "m s-1", "reference sound speed; by default 20 sqrt(g H)", gt=0)
     density_diffusion: float = quantity(0.1, "1", "coefficient delta of the density diffusion", ge=0)
     artificial_viscosity: float = quantity(0.02, "1", "coefficient alpha of the artificial viscosity", ge=0)
@@ -104,6 +115,11 @@ class Case(BaseModel, ABC):
         except ValidationError as error:
             raise InputError(explain(error, type(self))) from None
 
+    @field_validator("acceleration", mode="before")
+    @classmethod
+    def _uniform_acceleration(cls, given: Any) -> Any:
+        return {"name": "uniform", "vector": tuple(given)} if isinstance(given, list | tuple) else given
+
     @field_validator("*", mode="before")
     @classmethod
     def _no_boolean_numbers(cls, given: Any) -> Any:
@@ -123,9 +139,33 @@ class Case(BaseModel, ABC):
     def scene(self) -> Scene:
         """Return the walls, fluid, bodies and probes of the case."""
 
+    @property
+    def gravity_vector(self) -> Array:
+        """The acceleration of gravity (dim,), m/s^2.
+
+        Raises
+        ------
+        InputError: when it has another number of components.
+        """
+        try:
+            return gravity_vector(self.gravity, self.dimension)
+        except ValueError as error:
+            raise InputError(str(error)) from None
+
+    @property
+    def weight(self) -> float:
+        """The magnitude of gravity, m/s^2."""
+        return math.hypot(*self.gravity) if isinstance(self.gravity, tuple) else self.gravity
+
+    @property
+    def upward(self) -> Array:
+        """The unit vector (dim,) against gravity; along the last axis without gravity."""
+        g = self.weight
+        return self.gravity_vector / -g if g > 0.0 else gravity_vector(-1.0, self.dimension)
+
     def reference_sound_speed(self, depth: float) -> float:
         """Return c0 in m/s: ``sound_speed``, or 20 sqrt(g H) for a still water ``depth`` H in m where it is None."""
-        return self.sound_speed or 20.0 * math.sqrt(max(self.gravity, 1e-12) * depth)
+        return self.sound_speed or 20.0 * math.sqrt(max(self.weight, 1e-12) * depth)
 
     @property
     def wall_method(self) -> str:

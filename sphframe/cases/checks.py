@@ -10,7 +10,7 @@ import numpy as np
 from sphframe.cases.case import Case
 from sphframe.cases.fluid_checks import fluid_problems, fluid_reservations
 from sphframe.cases.parameters import Component
-from sphframe.cases.placement import placed_scene
+from sphframe.cases.placement import placed_force, placed_scene
 from sphframe.cases.scene import Scene
 from sphframe.errors import InputError, SphframeError
 from sphframe.interfaces import Integrator
@@ -66,6 +66,10 @@ def _component_errors(case: Case) -> list[SphframeError]:
             component.create(kind)
         except SphframeError as error:
             errors.append(error)
+    try:
+        placed_force(case)
+    except SphframeError as error:
+        errors.append(error)
     return errors
 
 
@@ -76,8 +80,9 @@ def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
         return
     shape_problems = [*_dimension_problems(dim, scene), *_name_problems(scene)]
     yield from shape_problems
-    if case.gravity == 0.0 and case.sound_speed is None:
+    if case.weight == 0.0 and case.sound_speed is None:
         yield "gravity = 0 gives no default sound speed; give sound_speed, ten times the largest flow speed or more"
+    yield from _force_problems(case, scene)
     if spacing > scene.depth / 4.0:
         yield (
             f"particle_spacing = {spacing:g} m is more than a quarter of the water depth, {scene.depth:g} m;"
@@ -105,6 +110,23 @@ def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
     for probe in scene.probes:
         if np.any(np.array(probe.position) < lower) or np.any(np.array(probe.position) > upper):
             yield f"probe {probe.name!r} at {probe.position} lies outside the domain {scene.domain}; move it to a wall"
+
+
+def _force_problems(case: Case, scene: Scene) -> Iterator[str]:
+    if case.weight and case.upward[-1] < 1.0:
+        for index, region in enumerate(scene.fluid):
+            if region.level is not None:
+                yield (
+                    f"fluid[{index}] has a level, a height along the last axis, but gravity = {case.gravity} does not"
+                    " act along it; draw the region up to its level surface and leave the level out"
+                )
+    if placed_force(case) is not None:
+        for name, body in scene.bodies.items():
+            if body.needs_load:
+                yield (
+                    f"body {name!r} is moved by the fluid, but acceleration = {case.acceleration.name!r} acts on the"
+                    " fluid alone; give it as gravity, which acts on both, or move the walls by a prescribed body"
+                )
 
 
 def _dimension_problems(dim: int, scene: Scene) -> Iterator[str]:
@@ -214,7 +236,7 @@ def _reservations(case: Case, scene: Scene) -> Iterator[str]:
             f"particle_spacing = {case.particle_spacing:g} m leaves {layers:.3g} particles over the depth of"
             f" {scene.depth:g} m; 10 or more are needed for a useful result"
         )
-    wave_speed = math.sqrt(case.gravity * scene.depth)
+    wave_speed = math.sqrt(case.weight * scene.depth)
     sound_speed = case.reference_sound_speed(scene.depth)
     if sound_speed < 9.999 * wave_speed:
         yield (

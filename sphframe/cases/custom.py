@@ -1,5 +1,6 @@
 """Cases: a case whose walls, fluid, bodies, probes and gauges are given as data."""
 
+from collections.abc import Iterable
 from typing import ClassVar
 
 import numpy as np
@@ -64,7 +65,7 @@ class Custom(Case):
         return Scene(
             walls=self.walls,
             fluid=self.fluid,
-            depth=self.depth or max([float(upper[-1]), *levels]) - float(lower[-1]),
+            depth=self.depth or self._vertical_extent(lower, upper, levels),
             domain=self.domain or self._around_everything(lower, upper),
             probes=self.probes,
             gauges=self.gauges,
@@ -72,9 +73,19 @@ class Custom(Case):
             bodies={name: body.create("rigid_bodies") for name, body in self.bodies.items()},
         )
 
+    def _vertical_extent(self, lower: Array, upper: Array, levels: Iterable[float]) -> float:
+        """Return the extent of the fluid against gravity, m."""
+        if self.upward[-1] == 1.0:
+            return max([float(upper[-1]), *levels]) - float(lower[-1])
+        return float(np.abs(self.upward) @ (upper - lower))
+
     def _around_everything(self, lower: Array, upper: Array) -> tuple[tuple[float, ...], tuple[float, ...]]:
         corners = np.vstack([*(corner for wall in self.walls for corner in wall.bounds()), lower, upper])
         low, high = corners.min(axis=0), corners.max(axis=0)
-        high[-1] += high[-1] - low[-1]
+        extent = high - low
+        if self.upward[-1] < 1.0:  # fluid may be thrown to all sides
+            high, low = high + extent, low - extent
+        else:
+            high[-1] += extent[-1]
         margin = self.particle_spacing
         return tuple((low - margin).tolist()), tuple((high + margin).tolist())

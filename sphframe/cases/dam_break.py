@@ -10,7 +10,7 @@ from sphframe.arrays import Array
 from sphframe.cases.box_tank import box_tank, domain_above, water_box, with_width
 from sphframe.cases.case import Case
 from sphframe.cases.dam_break_series import WaterColumn
-from sphframe.cases.parameters import Derived, quantity, with_default
+from sphframe.cases.parameters import Derived, downward_gravity, quantity, with_default
 from sphframe.cases.scene import Diagnostic, Probe, Scene
 from sphframe.interfaces import Fields
 
@@ -53,6 +53,7 @@ class DamBreak(Case):
         }
     }
 
+    gravity: float = downward_gravity()
     water_height: float = quantity(0.6, "m", "height H of the water column", gt=0)
     water_length: float = quantity(
         Derived("2 water_height", lambda case: 2.0 * case.water_height), "m", "length L of the water column", gt=0

@@ -36,6 +36,8 @@ def plain(value: Any) -> str:
 
 def _problems(error: ValidationError, model: type[BaseModel]) -> Iterator[str]:
     details = error.errors(include_url=False, include_context=True)
+    for detail in details:  # without the tags of alternatives
+        detail["loc"] = tuple(part for part in detail["loc"] if not str(part).startswith("<"))
     places = [detail["loc"] for detail in details]
     for detail in details:
         if any(len(place) > len(detail["loc"]) and place[: len(detail["loc"])] == detail["loc"] for place in places):

@@ -4,7 +4,7 @@ from typing import ClassVar, Literal
 
 from sphframe.bodies import Free
 from sphframe.cases.case import Case
-from sphframe.cases.parameters import Derived, quantity, with_default
+from sphframe.cases.parameters import Derived, downward_gravity, quantity, with_default
 from sphframe.cases.scene import Gauge, Scene
 from sphframe.geometry import PolygonRegion, PolygonWall
 
@@ -20,6 +20,7 @@ class FloatingBody(Case):
     title: ClassVar[str] = "box afloat in a tank"
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space; free bodies are two-dimensional")
+    gravity: float = downward_gravity()
     depth: float = quantity(0.4, "m", "depth of the water when the box is at its initial draught", gt=0)
     tank_length: float = quantity(1.2, "m", "length of the tank", gt=0)
     tank_height: float = quantity(Derived("1.5 depth", lambda case: 1.5 * case.depth), "m", "height of the walls", gt=0)

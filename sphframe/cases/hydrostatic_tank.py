@@ -5,7 +5,7 @@ from typing import Any, ClassVar
 
 from sphframe.cases.box_tank import box_tank, domain_above, water_box, with_width
 from sphframe.cases.case import Case
-from sphframe.cases.parameters import Derived, quantity, with_default
+from sphframe.cases.parameters import Derived, downward_gravity, quantity, with_default
 from sphframe.cases.scene import Probe, Scene
 
 
@@ -40,6 +40,7 @@ class HydrostaticTank(Case):
         }
     }
 
+    gravity: float = downward_gravity()
     water_depth: float = quantity(0.3, "m", "depth of the water", gt=0)
     tank_length: float = quantity(1.0, "m", "length of the tank", gt=0)
     tank_width: float = quantity(0.3, "m", "width of the tank, in 3-D", gt=0)

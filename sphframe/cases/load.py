@@ -83,7 +83,11 @@ def _beside(value: Any, folder: Path) -> Any:
 
 
 def _with_contents(case: Case, folder: Path) -> Case:
-    """Return the case with the contents of the files that its bodies read; ``folder`` is that of the case file."""
+    """Return the case with the contents of the files that its components read; ``folder`` is that of the case file."""
+    force = case.acceleration
+    options = load("body_forces", force.name).with_contents(force.options, folder)
+    if options != force.options:
+        case = case.model_copy(update={"acceleration": Component(name=force.name, options=options)})
     bodies = getattr(case, "bodies", None)
     if not isinstance(bodies, Mapping) or not all(isinstance(body, Component) for body in bodies.values()):
         return case

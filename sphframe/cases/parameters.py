@@ -56,6 +56,11 @@ def quantity(default: Any, unit: str, description: str, **bounds: Any) -> Any:
     return Field(default, description=description, json_schema_extra={"unit": unit}, **bounds)
 
 
+def downward_gravity() -> Any:
+    """Declare ``gravity`` as a number, for a case that is drawn for gravity along the last axis."""
+    return quantity(9.81, "m s-2", "acceleration of gravity, downwards along the last axis", ge=0)
+
+
 def with_default(model: type[BaseModel], name: str, default: Any) -> Any:
     """Declare again the parameter ``name`` of ``model`` with another default: same unit, meaning and bounds."""
     info = model.model_fields[name]

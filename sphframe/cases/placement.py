@@ -1,12 +1,12 @@
-"""Cases: the scene of a case, whose bodies have taken gravity and the shape of their walls from it."""
+"""Cases: the scene and the body force of a case, which have taken from it what they depend on."""
 
 from dataclasses import replace
 
 from sphframe.cases.case import Case
 from sphframe.cases.scene import Scene
-from sphframe.errors import InputError
+from sphframe.errors import InputError, PluginError
 from sphframe.geometry import solid_within
-from sphframe.interfaces import RigidBody, Surroundings
+from sphframe.interfaces import BodyForce, RigidBody, Surroundings
 
 
 def placed_scene(case: Case) -> Scene:
@@ -18,6 +18,25 @@ def placed_scene(case: Case) -> Scene:
     """
     scene = case.scene()
     return replace(scene, bodies={name: _placed(case, scene, name) for name in scene.bodies})
+
+
+def placed_force(case: Case) -> BodyForce | None:
+    """Return the body force of the ``acceleration`` of ``case``; None where there is none.
+
+    Raises
+    ------
+    InputError, PluginError: when it cannot be made, or contradicts the case.
+    """
+    chosen = case.acceleration
+    if chosen.name == "uniform" and not any(chosen.options.get("vector", ())):
+        return None
+    try:
+        force: BodyForce = chosen.create("body_forces").placed(case.dimension, case.gravity_vector)
+    except PluginError:
+        raise
+    except ValueError as error:  # an InputError is one
+        raise InputError(f"acceleration: {error}") from error
+    return force
 
 
 def _placed(case: Case, scene: Scene, name: str) -> RigidBody:

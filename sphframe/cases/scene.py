@@ -71,7 +71,7 @@ class Diagnostic:
 
 @dataclass(frozen=True)
 class Scene:
-    """What is simulated, in SI units; gravity acts downwards along the last axis."""
+    """What is simulated, in SI units; the last axis is the height."""
 
     walls: tuple[Wall, ...]
     fluid: tuple[Region, ...]

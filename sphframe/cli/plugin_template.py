@@ -18,6 +18,7 @@ _RUNS = {
     "interpolator": "sphframe run dam-break --interpolator {0}",
     "rigid-body": "sphframe show {0}",
     "case": "sphframe run {0}",
+    "body-force": "sphframe run dam-break --set acceleration={0}",
 }
 
 

@@ -3,6 +3,7 @@
 At run time no module imports another room, except ``representation`` and, in the method ``operator``, ``boundary``.
 """
 
+from sphframe.interfaces.body_force import BodyForce
 from sphframe.interfaces.boundary_interpolator import BoundaryInterpolator, WeightsFunction
 from sphframe.interfaces.equation_of_state import EquationOfState
 from sphframe.interfaces.integrator import Integrator, System
@@ -37,6 +38,7 @@ __all__ = [
     "SINGULAR",
     "TOO_FEW",
     "AssignFunction",
+    "BodyForce",
     "BoundaryInterpolator",
     "CompiledKernel",
     "Edge",

@@ -39,10 +39,13 @@ class Solid(NamedTuple):
 
 
 class Surroundings(NamedTuple):
-    """What a body takes from its case: ``dimension``; ``gravity``, m/s^2; ``solid``, None without a closed wall."""
+    """What a body takes from its case: ``dimension``; ``gravity``, m/s^2; ``solid``, None without a closed wall.
+
+    A number is gravity downwards along the last axis, see :func:`sphframe.interfaces.body_force.gravity_vector`.
+    """
 
     dimension: int
-    gravity: float
+    gravity: float | tuple[float, ...]
     solid: Solid | None
 
 

@@ -41,6 +41,7 @@ def _chosen(case: "Case") -> Iterator[tuple[str, str]]:
     yield "cases", registered_name(type(case))
     for field, kind in registry.COMPONENT_KINDS.items():
         yield kind, getattr(case, field).name
+    yield "body_forces", case.acceleration.name
     bodies = getattr(case, "bodies", None)
     for body in bodies.values() if isinstance(bodies, Mapping) else ():
         if hasattr(body, "name"):

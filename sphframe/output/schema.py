@@ -70,7 +70,7 @@ _ABOUT = {"comment": "about the reference point of the wall, by default the cent
 
 VARIABLES: Mapping[str, Variable] = {
     # names along the dimensions
-    "space": _text(("space",), "axis of space; gravity points along the last one, downwards"),
+    "space": _text(("space",), "axis of space; the last one is the height"),
     "motion": _text(("motion",), "generalised coordinate of a body"),
     "probe": _text(("probe",), "pressure probe"),
     "gauge": _text(("gauge",), "free-surface gauge"),

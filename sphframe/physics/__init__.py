@@ -1,5 +1,6 @@
 """Physics: one term of the equations per file."""
 
+from sphframe.physics.body_force import uniform_and_linear, with_body_force
 from sphframe.physics.parameters import LoopParameters
 from sphframe.physics.pressure import invert_pressure, update_pressure
 from sphframe.physics.rates import fluid_sums
@@ -18,7 +19,9 @@ __all__ = [
     "sample_points",
     "surface_reaction",
     "surface_sums",
+    "uniform_and_linear",
     "update_pressure",
     "wall_reaction",
     "wall_sums",
+    "with_body_force",
 ]

@@ -1,8 +1,11 @@
 """Physics: the constants that the loops need, in one tuple that compiled functions can read."""
 
+import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from sphframe.interfaces import CompiledKernel
+from sphframe.interfaces.body_force import gravity_vector
 
 
 class LoopParameters(NamedTuple):
@@ -13,7 +16,8 @@ class LoopParameters(NamedTuple):
     smoothing_length: h, m; ``support``: cut-off radius R, m.
     kernel_scale: sigma_d / h^d, m^-d; ``gradient_scale``: sigma_d / h^(d+2), m^-(d+2).
     reference_density: rho0, kg/m^3; ``sound_speed``: c0, m/s.
-    gravity: g, m/s^2, downwards along the last axis.
+    gravity: magnitude g of gravity, m/s^2; ``force_x``, ``force_y``, ``force_z``: the force per mass at the origin,
+        m/s^2, gravity included; the nine others: its gradient, 1/s^2, see :mod:`sphframe.physics.body_force`.
     diffusion: delta h c0, m^2/s, factor of the density diffusion.
     viscosity: Pa s, factor of pi_ij: alpha h c0 rho0, and 2 (d + 2) rho0 nu of the form of Monaghan and Gingold.
     friction: 2 rho0 nu of the form of Morris, Pa s.
@@ -32,6 +36,18 @@ class LoopParameters(NamedTuple):
     friction: float
     spacing: float
     depth: float
+    force_x: float = 0.0
+    force_y: float = 0.0
+    force_z: float = 0.0
+    force_xx: float = 0.0
+    force_xy: float = 0.0
+    force_xz: float = 0.0
+    force_yx: float = 0.0
+    force_yy: float = 0.0
+    force_yz: float = 0.0
+    force_zx: float = 0.0
+    force_zy: float = 0.0
+    force_zz: float = 0.0
 
     @classmethod
     def of(
@@ -42,7 +58,7 @@ class LoopParameters(NamedTuple):
         smoothing_length: float,
         reference_density: float,
         sound_speed: float,
-        gravity: float = 0.0,
+        gravity: float | Sequence[float] = 0.0,
         density_diffusion: float = 0.0,
         artificial_viscosity: float = 0.0,
         kinematic_viscosity: float = 0.0,
@@ -54,6 +70,7 @@ class LoopParameters(NamedTuple):
 
         ``kinematic_viscosity`` nu, m^2/s, has the form of Morris, or else of Monaghan and Gingold.
         """
+        vector = gravity_vector(gravity, dim)
         laminar = reference_density * kinematic_viscosity
         return cls(
             smoothing_length=float(smoothing_length),
@@ -62,11 +79,12 @@ class LoopParameters(NamedTuple):
             gradient_scale=float(kernel.normalisation / smoothing_length ** (dim + 2)),
             reference_density=float(reference_density),
             sound_speed=float(sound_speed),
-            gravity=float(gravity),
+            gravity=math.hypot(*vector),
             diffusion=float(density_diffusion * smoothing_length * sound_speed),
             viscosity=float(artificial_viscosity * smoothing_length * sound_speed * reference_density)
             + (0.0 if morris else 2.0 * (dim + 2.0) * laminar),
             friction=2.0 * laminar if morris else 0.0,
             spacing=float(spacing),
             depth=float(depth),
+            **dict(zip(("force_x", "force_y", "force_z"), vector.tolist(), strict=False)),
         )

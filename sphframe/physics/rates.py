@@ -9,6 +9,7 @@ import numba
 from sphframe.compiled import LANES, fma, local_array
 from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, MASKED, MORRIS, SUPPORT
 from sphframe.neighbours.sight import WHOLE
+from sphframe.physics.body_force import body_force
 from sphframe.physics.continuity import diffusive_flux
 from sphframe.physics.density_gradient import renormalised_2d, renormalised_3d
 from sphframe.physics.momentum import pair_stress
@@ -149,8 +150,8 @@ def fluid_sums(  # type: ignore[no-untyped-def]
             if CONTINUITY:
                 rates[i, COLUMNS.density] = parameters.diffusion * diffused_by_fluid[a] - density[a] * compression[a]
             else:
-                rates[i, COLUMNS.u] = fx[a] / density[a]
-                rates[i, COLUMNS.v] = fy[a] / density[a]
+                ax, ay, az = body_force(parameters, x[a], y[a], z[a])
+                rates[i, COLUMNS.u] = fx[a] / density[a] + ax
+                rates[i, COLUMNS.v] = fy[a] / density[a] + ay
                 if DIM == 3:
-                    rates[i, COLUMNS.w] = fz[a] / density[a]
-                rates[i, COLUMNS.w] -= parameters.gravity
+                    rates[i, COLUMNS.w] = fz[a] / density[a] + az

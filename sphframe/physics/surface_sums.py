@@ -14,6 +14,7 @@ import numba
 from sphframe.compiled import LANES
 from sphframe.compiled.stand_ins import COLUMNS, EDGE_INTEGRALS, SURFACE
 from sphframe.interfaces import Edge, FluidSide
+from sphframe.physics.body_force import body_force
 from sphframe.physics.wall_force import add_load
 from sphframe.physics.wall_pair import wall_side
 
@@ -68,9 +69,9 @@ def surface_sums(  # type: ignore[no-untyped-def]
                 rate = rates[i, COLUMNS.density] - density * divergence
                 rates[i, COLUMNS.density] = rate * per_gamma
             else:
-                rates[i, COLUMNS.u] = (rates[i, COLUMNS.u] + fx / density) * per_gamma
-                weight = parameters.gravity
-                rates[i, COLUMNS.v] = (rates[i, COLUMNS.v] + weight + fy / density) * per_gamma - weight
+                ax, ay, _ = body_force(parameters, rows[i, 0], rows[i, 1], 0.0)
+                rates[i, COLUMNS.u] = (rates[i, COLUMNS.u] - ax + fx / density) * per_gamma + ax
+                rates[i, COLUMNS.v] = (rates[i, COLUMNS.v] - ay + fy / density) * per_gamma + ay
 
 
 def surface_reaction(  # type: ignore[no-untyped-def]

@@ -12,6 +12,7 @@ LABELS = {
     "equations_of_state": "equation of state",
     "integrators": "integrator",
     "rigid_bodies": "rigid body",
+    "body_forces": "body force",
     "cases": "case",
     "studies": "study",
     "hooks": "hook",
@@ -24,6 +25,7 @@ INTERFACES = {
     "equations_of_state": "sphframe.EquationOfState",
     "integrators": "sphframe.Integrator",
     "rigid_bodies": "sphframe.RigidBody",
+    "body_forces": "sphframe.BodyForce",
     "cases": "sphframe.Case",
     "studies": "sphframe.studies.Study",
 }

@@ -4,9 +4,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from sphframe.cases import Case
+from sphframe.cases.placement import placed_force
 from sphframe.compiled import compile_part
 from sphframe.errors import InputError
 from sphframe.interfaces import (
+    BodyForce,
     BoundaryInterpolator,
     CompiledKernel,
     EquationOfState,
@@ -30,7 +32,7 @@ class Components:
     interpolator: the one that the treatment uses; None if it uses none. ``velocity_interpolator``: another one for
         velocities.
     compiled_kernel: the kernel's compiled functions and constants in the case's dimension.
-    walls: the functions of the treatment of walls.
+    walls: the functions of the treatment of walls. ``body_force``: None without acceleration.
     parts: what the compiled loops are specialised with, by the name that the loops use.
     """
 
@@ -43,6 +45,7 @@ class Components:
     compiled_kernel: CompiledKernel
     walls: WallParts
     parts: dict[str, Any]
+    body_force: BodyForce | None = None
 
     @classmethod
     def of_case(cls, case: Case) -> "Components":
@@ -77,7 +80,8 @@ class Components:
             pressure=parts["PRESSURE"],
         )
         chosen["velocity_interpolator"] = velocity_interpolator
-        return cls(**chosen, compiled_kernel=kernel, walls=treatment.parts(context), parts=parts)
+        walls, force = treatment.parts(context), placed_force(case)
+        return cls(**chosen, compiled_kernel=kernel, walls=walls, parts=parts, body_force=force)
 
 
 def loop_parts(kernel: CompiledKernel, equation_of_state: EquationOfState, dim: int) -> dict[str, Any]:

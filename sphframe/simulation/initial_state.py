@@ -102,8 +102,8 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
         pressure = scene.initial_pressure(position)
     else:
         regions = [position[members == index] for index in range(len(scene.fluid))]
-        levels = still_levels(scene, regions, spacing, boundary.groups)
-        depth = levels[members] - position[:, -1]
+        levels = still_levels(scene, regions, spacing, boundary.groups, case.upward)
+        depth = levels[members] - position @ case.upward
         pressure = pressure_at_depth(
             depth, components.parts["DENSITY"], parameters.reference_density, parameters.sound_speed, parameters.gravity
         )
@@ -121,7 +121,8 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     loops = RateLoops(parts, components.compiled_kernel, components.walls, attracts=case.tension != "none")
     states = WallStates(boundary, components.walls.rate, components.parts)
     filling = initial_filling(case, components)
-    system = FluidSystem(rows, boundary, filling, lists, loops, states, parts, parameters, contacts)
+    force = components.body_force
+    system = FluidSystem(rows, boundary, filling, lists, loops, states, parts, parameters, contacts, force)
     system.move_walls(0.0)
     system.find_neighbours()
     system.evaluate(0.0)

@@ -11,7 +11,7 @@ from sphframe.compiled import specialise
 from sphframe.errors import InputError
 from sphframe.interfaces import EvaluationPoint, WallGeometry
 from sphframe.particles import Columns
-from sphframe.physics import LoopParameters, invert_pressure
+from sphframe.physics import LoopParameters, invert_pressure, uniform_and_linear
 from sphframe.simulation.components import Components
 from sphframe.simulation.filling_check import filling_by
 
@@ -72,10 +72,11 @@ def hydrostatic_densities(
 ) -> Array:
     """Return densities of ghosts (g,) in equilibrium with the nearest particle of the fluid; rho0 where it is far."""
     distance, nearest = cKDTree(position).query(boundary.position)
-    higher = boundary.position[:, -1] - position[nearest, -1]
+    weight = parameters.reference_density * uniform_and_linear(parameters, boundary.dim)[0]
+    lift = np.einsum("gi,i->g", boundary.position - position[nearest], weight)
     columns = Columns.of(boundary.dim)
     rows = columns.zeros(boundary.count)
-    found = np.maximum(pressure[nearest] - parameters.reference_density * parameters.gravity * higher, 0.0)
+    found = np.maximum(pressure[nearest] + lift, 0.0)
     rows[:, columns.pressure] = np.where(distance > parameters.support, 0.0, found)
     specialise(invert_pressure, components.parts, parallel=False)(rows, boundary.count, parameters)
     density: Array = rows[:, columns.density]

@@ -10,7 +10,7 @@ from sphframe.cases import Case, Scene
 from sphframe.compiled import specialise
 from sphframe.geometry import panels_of, to_body_frame
 from sphframe.interfaces import Fields, Motion, Status, WallLoad
-from sphframe.physics import sample_points
+from sphframe.physics import LoopParameters, sample_points, uniform_and_linear
 from sphframe.simulation.components import Components
 from sphframe.simulation.filling_check import filling_by
 from sphframe.simulation.probes import Gauges, PressureProbes, Readings
@@ -33,7 +33,7 @@ class Observation:
     def __init__(self, case: Case, scene: Scene, components: Components, system: FluidSystem) -> None:
         self.case, self.scene, self.components, self.system = case, scene, components, system
         self.boundary: Boundary = system.boundary
-        self.parameters, self.columns = system.parameters, system.columns
+        self.columns = system.columns
         self.sound_speed, self.support = self.parameters.sound_speed, self.parameters.support
         self.smoothing_length = self.parameters.smoothing_length
         self.particle_count = system.fluid_count
@@ -50,6 +50,11 @@ class Observation:
             panels = panels.in_front(1e-3 * case.particle_spacing)
         self._wall_loads = WallLoads(system, scene.walls, scene.wall_parts, panels, self.sample)
         self._sample: Callable[..., None] = specialise(sample_points, components.parts)
+
+    @property
+    def parameters(self) -> LoopParameters:
+        """Constants of the loops, with the present body force."""
+        return self.system.parameters
 
     @property
     def fluid_count(self) -> int:
@@ -137,16 +142,24 @@ class Observation:
     def energies(self) -> dict[str, float]:
         """Return kinetic, potential and internal energy of the fluid, J, summed in one thread.
 
-        The potential energy is measured from z = 0; the internal energy is p^2 V / (2 rho c0^2), its leading order.
+        The potential energy -m (f0.x + x.G x / 2) is that in the present force per mass f0 + G x, and zero at the
+        origin; the internal energy is p^2 V / (2 rho c0^2), its leading order.
         """
         fields = self._fluid()
         mass = self.system.rows[: self.fluid_count, self.columns.mass]
         compliance = mass / (fields.density**2 * self.sound_speed**2)
         return {
             "kinetic": 0.5 * float(np.einsum("i,ij,ij->", mass, fields.velocity, fields.velocity)),
-            "potential": self.case.gravity * float(np.einsum("i,i->", mass, fields.position[:, -1])),
+            "potential": self._potential_energy(mass, fields.position),
             "internal": 0.5 * float(np.einsum("i,i,i->", compliance, fields.pressure, fields.pressure)),
         }
+
+    def _potential_energy(self, mass: Array, position: Array) -> float:
+        force, gradient = uniform_and_linear(self.parameters, self.columns.dim)
+        energy = -sum(float(f * np.einsum("i,i->", mass, x)) for f, x in zip(force, position.T, strict=True))
+        if gradient is not None:
+            energy -= 0.5 * float(np.einsum("i,ij,jk,ik->", mass, position, gradient, position))
+        return energy
 
     def particles_outside(self) -> int:
         """Return the number of particles behind a wall."""

@@ -9,28 +9,33 @@ import shapely
 
 from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.cases import Scene
-from sphframe.geometry import WallGroup, wall_lines
+from sphframe.geometry import Region, WallGroup, wall_lines
+from sphframe.geometry.shapes import CHORD
 
 _TOUCHING = 1.3
 """distance of particles over spacing up to which their regions touch"""
 
 
-def still_levels(scene: Scene, positions: Sequence[Array], spacing: float, groups: Sequence[WallGroup]) -> Array:
+def still_levels(
+    scene: Scene, positions: Sequence[Array], spacing: float, groups: Sequence[WallGroup], upward: Array
+) -> Array:
     """Return the still water level (n,), m, of each region of fluid, whose particles are at ``positions``.
 
     It is the ``level`` of the region. Regions without one share the highest point, or level, of all regions that are
     connected with them by touching regions; in 2-D, regions on both sides of a wall do not touch. Fluid that does not
-    stand on a wall falls freely: its pressure is zero, and its level minus infinity. ``groups`` are the walls.
+    stand on a wall falls freely: its pressure is zero, and its level minus infinity. ``groups`` are the walls, and
+    ``upward`` (dim,) is the unit vector along which heights are measured.
     """
     count = len(positions)
     given = np.array([np.nan if region.level is None else region.level for region in scene.fluid])
-    own = np.where(np.isnan(given), [region.bounds()[1][-1] for region in scene.fluid], given)
+    own = np.where(np.isnan(given), [_top(region, upward, spacing) for region in scene.fluid], given)
     walls = wall_lines(scene.walls, spacing)
     component = _components(positions, walls, spacing) if count > 1 else np.zeros(1, dtype=int)
     levels = given.copy()
     for c in np.unique(component):
         position = np.vstack([positions[k] for k in range(count) if component[k] == c])
-        stands = _stands(position[position[:, -1] < position[:, -1].min() + spacing], groups, walls, spacing)
+        height = position @ upward
+        stands = _stands(position[height < height.min() + 0.99 * spacing], groups, walls, spacing * upward)
         levels[np.isnan(given) & (component == c)] = own[component == c].max() if stands else -np.inf
     return levels
 
@@ -49,10 +54,18 @@ def _components(positions: Sequence[Array], walls: Any, spacing: float) -> IntAr
     return np.asarray(connected_components(touching, directed=False)[1])
 
 
-def _stands(lowest: Array, groups: Sequence[WallGroup], walls: Any, spacing: float) -> bool:
-    """Whether a wall lies less than a spacing below most of the ``lowest`` particles (n, dim) of a body of fluid."""
-    below = lowest.copy()
-    below[:, -1] -= spacing
+def _top(region: Region, upward: Array, spacing: float) -> float:
+    """Height of the highest point of a region along ``upward``."""
+    if upward[-1] == 1.0:
+        return float(region.bounds()[1][-1])
+    drawn = region.geometry(CHORD * spacing)
+    points = shapely.get_coordinates(drawn) if region.dimension == 2 else drawn.vertices
+    return float((points @ upward).max())
+
+
+def _stands(lowest: Array, groups: Sequence[WallGroup], walls: Any, spacing: Array) -> bool:
+    """Whether a wall lies less than a ``spacing`` (dim,) below most of the ``lowest`` particles (n, dim) of a fluid."""
+    below = lowest - spacing
     on_wall = _crosses(lowest, below, walls)
     for group in groups:
         on_wall |= group.behind(below)

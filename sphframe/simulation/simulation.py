@@ -185,6 +185,7 @@ class Simulation(Observation):
         self.time, self.time_step, self.wall_clock, self.initial_energy = map(float, state["clocks"])
         self.step, self.samples, self.frames, self.densities_outside = map(int, state["counters"])
         self.between_steps = True
+        self.system.set_body_force(self.time)
 
 
 def _use_threads(threads: int | None) -> int:

@@ -15,12 +15,13 @@ from sphframe.boundary.corners import Shares
 from sphframe.boundary.filling import Filling
 from sphframe.boundary.wall_states import WallStates
 from sphframe.compiled import specialise
-from sphframe.interfaces import System
+from sphframe.interfaces import BodyForce, System
 from sphframe.neighbours import LargestMotion, NeighbourLists, put_in_order
 from sphframe.particles import Columns
 from sphframe.physics import LoopParameters, update_pressure
 from sphframe.simulation.body_contact import BodyContacts
 from sphframe.simulation.body_states import BodyStates
+from sphframe.simulation.driving import Driving
 from sphframe.simulation.rate_loops import RateLoops
 from sphframe.simulation.updates import add_columns, advance_state, copy_state
 
@@ -52,6 +53,7 @@ class FluidSystem(System):
         parts: Mapping[str, Any],
         parameters: LoopParameters,
         contacts: BodyContacts,
+        body_force: BodyForce | None = None,
     ) -> None:
         dim = boundary.dim
         self.boundary = boundary
@@ -63,8 +65,7 @@ class FluidSystem(System):
         walls = len(boundary.wall_body)
         self.loads = np.zeros((walls, self.bodies.size))
         self._partial_loads = np.zeros((64, walls, self.bodies.size))
-        self._driving_force = np.zeros(dim)
-        self._driving_force[-1] = -parameters.reference_density * parameters.gravity
+        self._driving = Driving(parameters, dim, body_force)
         self._pressure = specialise(update_pressure, parts)
         self._put_back = specialise(put_back, parts)
         count = lists.fluid_count
@@ -137,8 +138,13 @@ class FluidSystem(System):
     def move_walls(self, time: float) -> None:
         """Carry the ghosts to where the bodies are; a body under load keeps its last acceleration."""
         self.bodies.update_motions(time, self._body_loads())
-        density = self.parameters.reference_density
-        self.boundary.move(self.bodies.motions, self.rows[self.fluid_count :], self._driving_force, density)
+        self.set_body_force(time)
+        ghosts, density, driving = self.rows[self.fluid_count :], self.parameters.reference_density, self._driving
+        self.boundary.move(self.bodies.motions, ghosts, driving.force, density, driving.gradient)
+
+    def set_body_force(self, time: float) -> None:
+        """Take the force per mass at ``time``, that of gravity and of the case's acceleration."""
+        self.parameters = self._driving.at(time, self.parameters)
 
     def update_pressure(self) -> None:
         """Compute pressure and volume of the fluid from its density."""
@@ -173,12 +179,7 @@ class FluidSystem(System):
 
     def references(self) -> Array:
         """Return the points (walls, dim) to which moments refer: the centre of the wall's body, or the origin, m."""
-        boundary = self.boundary
-        centres = np.zeros((len(boundary.wall_body), boundary.dim))
-        for wall, body in enumerate(boundary.wall_body):
-            if body >= 0:
-                centres[wall] = boundary.centres[body] + self.bodies.motions[body].position[: boundary.dim]
-        return centres
+        return self.boundary.references(self.bodies.motions)
 
     def reaction_of(self, ghosts: BoolArray, wall: int) -> Array:
         """Return force and moment (3 or 6,) of the fluid on some ``ghosts`` (g,) of a wall, without corner shares."""

@@ -6,6 +6,7 @@ from typing import Any
 
 from sphframe.cases import Case
 from sphframe.interfaces import (
+    BodyForce,
     BoundaryInterpolator,
     EquationOfState,
     Integrator,
@@ -14,8 +15,16 @@ from sphframe.interfaces import (
     Traits,
     WallTreatment,
 )
+from sphframe.testing import (
+    body_forces,
+    equations_of_state,
+    integrators,
+    interpolators,
+    kernels,
+    rigid_bodies,
+    wall_treatments,
+)
 from sphframe.testing import cases as case_checks
-from sphframe.testing import equations_of_state, integrators, interpolators, kernels, rigid_bodies, wall_treatments
 from sphframe.testing.evaluation import title
 
 
@@ -53,6 +62,7 @@ _OTHER_INTERFACES: dict[type, dict[str, Callable[[Any], None]]] = {
     EquationOfState: equations_of_state.CHECKS,
     Integrator: integrators.CHECKS,
     RigidBody: rigid_bodies.CHECKS,
+    BodyForce: body_forces.CHECKS,
     Case: case_checks.CHECKS,
 }
 
@@ -62,8 +72,8 @@ def checks_of(component: Any, *, promised_only: bool = True) -> list[Check]:
 
     Parameters
     ----------
-    component: an interpolation method, wall treatment, kernel, equation of state, integrator, rigid body or
-        case.
+    component: an interpolation method, wall treatment, kernel, equation of state, integrator, rigid body,
+        body force or case.
     promised_only: leave out the checks of traits that a method does not declare.
 
     Raises
@@ -79,7 +89,7 @@ def checks_of(component: Any, *, promised_only: bool = True) -> list[Check]:
             return [Check(name, function) for name, function in checks.items()]
     raise TypeError(
         f"there are no checks for {component!r}: give an instance of BoundaryInterpolator, WallTreatment, Kernel,"
-        f" EquationOfState, Integrator, RigidBody or Case"
+        f" EquationOfState, Integrator, RigidBody, BodyForce or Case"
     )
 
 

@@ -15,7 +15,16 @@ from sphframe.testing.proof import BrokenPromiseError
 from sphframe.testing.suite import Check, checks_of
 from sphframe.testing.wall_treatments import WallResiduals, wall_residuals
 
-KINDS = ("interpolators", "wall_treatments", "kernels", "equations_of_state", "integrators", "rigid_bodies", "cases")
+KINDS = (
+    "interpolators",
+    "wall_treatments",
+    "kernels",
+    "equations_of_state",
+    "integrators",
+    "rigid_bodies",
+    "body_forces",
+    "cases",
+)
 MEASURED_WITH = {"gaussian": 1.3, "wendland-c2": 2.0}
 """the kernels with which errors of wall treatments are measured, with h over the particle spacing"""
 Verdict = Literal["kept", "held", "broken", "absent"]
@@ -92,7 +101,7 @@ def verify(names: Sequence[str] = (), *, progress: Callable[[str], None] | None 
     Parameters
     ----------
     names: registered names, ``module:attribute``, or either with options as in ``sfdi[form=printed]``; of interpolation
-        methods, wall treatments, kernels, equations of state, integrators, rigid bodies and cases; or
+        methods, wall treatments, kernels, equations of state, integrators, rigid bodies, body forces and cases; or
         a kind, such as ``wall_treatments``, for all that are installed, once for each value of an option that has a
         list of values. Without names: all interpolation methods and wall treatments.
     progress: called with a line of text before each component and check.

@@ -121,7 +121,7 @@ def test_bad_series_are_refused(text: str, options: dict[str, Any], message: str
 
 
 def test_a_series_needs_a_file_that_can_be_read(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="cannot read the displacement series"):
+    with pytest.raises(InputError, match="cannot read the series"):
         DisplacementSeries(tmp_path / "absent.csv")
     with pytest.raises(InputError, match="needs a path"):
         DisplacementSeries()

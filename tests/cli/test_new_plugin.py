@@ -42,7 +42,7 @@ def test_it_declares_exactly_the_traits_that_it_has(made):
             assert held == check.promised, check.name
 
 
-@pytest.mark.parametrize("kind", ["kernel", "equation-of-state", "integrator", "rigid-body", "case"])
+@pytest.mark.parametrize("kind", ["kernel", "equation-of-state", "integrator", "rigid-body", "body-force", "case"])
 def test_every_kind_is_listed_and_has_what_its_checks_ask_for(made, kind):
     root, component = made("scaffolded", kind=kind)
     assert "scaffolded" in [entry.name for entry in available(KINDS[kind])]

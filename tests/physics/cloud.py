@@ -11,7 +11,7 @@ from sphframe.kernels import compiled_kernel
 from sphframe.kernels.gaussian import RenormalisedGaussian
 from sphframe.kernels.wendland import WendlandC2
 from sphframe.particles import Columns
-from sphframe.physics import LoopParameters, fluid_sums
+from sphframe.physics import LoopParameters, fluid_sums, with_body_force
 
 KERNELS = {"gaussian": RenormalisedGaussian(), "wendland-c2": WendlandC2()}
 
@@ -39,7 +39,9 @@ class Cloud:
         of_case = LoopParameters.of(
             self.kernel, self.dim, smoothing_length=self.h, reference_density=1000.0, sound_speed=40.0, **zero
         )
-        return of_case._replace(**numbers)
+        force, gradient = numbers.pop("force", (0.0, 0.0, 0.0)), numbers.pop("force_gradient", 9 * (0.0,))
+        matrix = np.reshape(gradient, (3, 3))[: self.dim, : self.dim]
+        return with_body_force(of_case._replace(**numbers), np.array(force[: self.dim]), matrix)
 
     def walls(self, seed=5):
         """Arrays of the ghosts with random normals, distances and velocities."""

@@ -33,7 +33,7 @@ def slow_gradient(cloud):
     return gradient
 
 
-def slow_rates(cloud, gradient, diffusion, viscosity, gravity, friction=0.0):
+def slow_rates(cloud, gradient, diffusion, viscosity, body_force, force_gradient, friction=0.0):
     c = Columns.of(cloud.dim)
     rates = np.zeros((cloud.fluid_count, 2 * cloud.dim + 1))
     for i in range(cloud.fluid_count):
@@ -56,7 +56,8 @@ def slow_rates(cloud, gradient, diffusion, viscosity, gravity, friction=0.0):
             force += friction * (u_ji.T @ (np.einsum("ij,ij->i", x_ji, grad) / r2 * volume))
             rates[i, cloud.dim : 2 * cloud.dim] += force / density
         rates[i, : cloud.dim] = cloud.rows[i, c.velocity]
-        rates[i, 2 * cloud.dim - 1] -= gravity
+        slope = np.reshape(force_gradient, (3, 3))[: cloud.dim, : cloud.dim]
+        rates[i, cloud.dim : 2 * cloud.dim] += body_force[: cloud.dim] + slope @ cloud.rows[i, c.position]
     return rates
 
 
@@ -67,11 +68,12 @@ def test_rates_equal_the_slow_version(dim, kernel):
     gradient = cloud.density_gradient()
     expected_gradient = slow_gradient(cloud)
     np.testing.assert_allclose(gradient, expected_gradient, rtol=1e-8, atol=1e-9 * np.abs(expected_gradient).max())
-    numbers = {"diffusion": 0.7, "viscosity": 130.0, "gravity": 9.81}
+    force, force_gradient = (1.5, -9.81, 4.0), (3.0, -1.0, 0.5, 2.0, -5.0, 1.0, 0.7, 0.2, -2.0)
+    numbers = {"diffusion": 0.7, "viscosity": 130.0, "force": force, "force_gradient": force_gradient}
     if kernel == "gaussian":
         cloud.morris, numbers["friction"] = True, 70.0
     rates = cloud.rates(gradient, **numbers)
-    expected = slow_rates(cloud, gradient, **numbers)
+    expected = slow_rates(cloud, gradient, body_force=numbers.pop("force"), **numbers)
     np.testing.assert_allclose(rates, expected, rtol=1e-9, atol=1e-10 * np.abs(expected).max())
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from sphframe import Array, Case, RigidBody
-from sphframe.cases import Derived, Diagnostic, Fields, Gauge, Probe, Scene, quantity, with_default
+from sphframe.cases import Derived, Diagnostic, Fields, Gauge, Probe, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import PolygonRegion, PolygonWall
 from sphframe_waves.solitary_wave_paddle import SolitaryWavePaddle
 
@@ -24,6 +24,7 @@ class SolitaryWaveFlume(Case):
     """
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space; wave flumes are two-dimensional")
+    gravity: float = downward_gravity()
     depth: float = quantity(0.25, "m", "still water depth d", gt=0)
     wave_height: float = quantity(0.075, "m", "height A of the wave that the paddle is to make", gt=0)
     wave_theory: Literal["rayleigh", "boussinesq"] = quantity("rayleigh", "1", "theory of the paddle's motion")
