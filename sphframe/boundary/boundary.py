@@ -6,6 +6,7 @@ import numpy as np
 
 from sphframe.arrays import Array, BoolArray
 from sphframe.boundary.corners import Corners, Shares
+from sphframe.boundary.images import Images
 from sphframe.boundary.movement import move_ghosts
 from sphframe.boundary.sides import WallSides
 from sphframe.boundary.wall_arrays import WallArrays
@@ -38,7 +39,7 @@ class Boundary:
     wall_body: (walls,) index of each wall's body, -1 at rest; ``centres`` (bodies, dim) as drawn, m.
     statuses: (g,) :class:`Status` of the last filling.
     wall_state: (g,) what the treatment advances; ``full`` (g,) filling of the evaluation point within the fluid.
-    arrays: what compiled loops read of the ghosts.
+    arrays: what compiled loops read of the ghosts; ``images`` of the fluid, for treatments with images.
     sides: the sides of walls, where a wall is thin; else None.
     """
 
@@ -92,6 +93,7 @@ class Boundary:
         self.driving = np.zeros_like(self.position)
         self.statuses = np.full(self.count, int(Status.DRY), np.int64)
         self.wall_state, self.full = np.zeros(self.count), np.ones(self.count)
+        self.images = Images.of(0, self.dim)
         self.arrays = WallArrays(
             self.normal, self.depth, self.height, self.reflection, self.velocity, self.driving, self.volume, self.full,
             np.zeros_like(self.position), self.wall_state,

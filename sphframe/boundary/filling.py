@@ -1,4 +1,4 @@
-"""Boundary: fills the ghosts from the fluid by compiled loops, which need scratch memory."""
+"""Boundary: fills the ghosts from the fluid, or makes its images, by compiled loops, which need scratch memory."""
 
 from collections.abc import Mapping
 from typing import Any, Literal
@@ -7,6 +7,7 @@ from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.conjugate import make_conjugate
 from sphframe.boundary.ghosts import Scratch, fill_ghosts
+from sphframe.boundary.images import Images, make_images
 from sphframe.compiled import specialise
 from sphframe.interfaces import (
     BoundaryInterpolator,
@@ -80,6 +81,26 @@ class Filling:
                 rows, lists.fluid_count, lists.points, lists.point_counts, boundary.reflection, boundary.velocity,
                 parameters,
             )  # fmt: skip
+
+
+class ImageFilling:
+    """Makes the images of the fluid in the walls, which take the place of ghosts; arguments as of :class:`Filling`."""
+
+    def __init__(
+        self, parts: Mapping[str, Any], walls: WallParts, *, tension: Tension = "bounded", lowest_pressure: float = 0.0
+    ) -> None:
+        self._dim: int = parts["DIM"]
+        bounds = {"BOUNDED": tension != "free", "LOWEST": lowest_pressure if tension == "bounded" else 0.0}
+        self._make = specialise(make_images, {**parts, **bounds, "ASSIGN": walls.assign or _at_rest})
+
+    def __call__(self, rows: Array, lists: NeighbourLists, boundary: Boundary, parameters: LoopParameters) -> None:
+        """Make the images of the fluid in ``rows`` (n + g, width) in ``boundary``."""
+        if len(boundary.images.counts) != lists.fluid_count:
+            boundary.images = Images.of(lists.fluid_count, self._dim)
+        self._make(
+            rows, lists.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, boundary.foot,
+            boundary.arrays, parameters, *boundary.images,
+        )  # fmt: skip
 
 
 def _at_rest(

@@ -25,6 +25,8 @@ class WallGeometry(StrEnum):
     """in layers at (k + 1/2) dx behind the wall, which fill the support of the kernel"""
     ROW = "row"
     """in one row on the wall"""
+    IMAGES = "images"
+    """mirror images of the fluid particles; ``assign`` gives each what it makes of the one particle"""
 
 
 class Interpolated(NamedTuple):
@@ -50,7 +52,8 @@ class WallPoint(NamedTuple):
 
     normal: (dim,) n; ``distance``: behind the wall, m; ``height``: of the evaluation point above the wall, m.
     lift: (dim,) from the evaluation point to the particle, m.
-    reflection: (dim, dim) S, maps the fluid's velocity relative to the wall to that of the ghost; -1 for no slip.
+    reflection: (dim, dim) S, maps the fluid's velocity relative to the wall to that of the ghost; -1 for no slip, and
+    for mirror images that of free slip in any case.
     velocity: (dim,) u_w, m/s; ``force``: (dim,) b, N/m^3.
     state: what ``rate`` advances, such as a density; 0 without it.
     """

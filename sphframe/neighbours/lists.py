@@ -271,14 +271,13 @@ def _near_any(rows, j, first, last, dim, limit):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(error_model="numpy")
-def _select(rows, members, begin, end, first, last, dim, limit):  # type: ignore[no-untyped-def]
-    """Keep of ``members[begin:end]`` what is near a member of the cluster, and not a lone particle itself."""
+def _select(rows, members, begin, end, first, last, dim, limit, alone):  # type: ignore[no-untyped-def]
+    """Keep of ``members[begin:end]`` what is near a member of the cluster, and not the particle itself if ``alone``."""
     kept = begin
     for k in range(begin, end):
         j = members[k]
         members[kept] = j
-        lone = last - first == 1 and j == first
-        kept += 1 if not lone and _near_any(rows, j, first, last, dim, limit) else 0
+        kept += 1 if not (alone and j == first) and _near_any(rows, j, first, last, dim, limit) else 0
     return kept
 
 
@@ -352,11 +351,11 @@ def _list_particles(  # type: ignore[no-untyped-def]
         members = lists[c]
         found = _collect(rows, dim, box, radius, grid, starts, no_order, 0, members, 0)
         if selected and found <= room:
-            found = _select(rows, members, 0, found, first, last, dim, limit)
+            found = _select(rows, members, 0, found, first, last, dim, limit, cluster == 1)
         counts[c] = found
         found = _collect(rows, dim, box, radius, grid, ghost_starts, ghost_order, n, members, found)
         if selected and found <= room:
-            found = _select(rows, members, counts[c], found, first, last, dim, limit)
+            found = _select(rows, members, counts[c], found, first, last, dim, limit, cluster == 1)
         ghost_counts[c] = found - counts[c]
         longest = max(longest, found)
     return longest

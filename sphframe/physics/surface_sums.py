@@ -40,7 +40,7 @@ def _edge(rows, i, j, walls, g, parameters, columns, integrals, sigma, h):  # ty
 
 
 def surface_sums(  # type: ignore[no-untyped-def]
-    rows, lists, fluid_counts, ghost_counts, seen_shares, walls, parameters, rates
+    rows, lists, fluid_counts, ghost_counts, seen_shares, walls, images, parameters, rates
 ):
     """Add force and divergence of the edges to ``rates`` (n, 5); all arguments as in :func:`wall_sums`."""
     n = rates.shape[0]
@@ -76,7 +76,7 @@ def surface_sums(  # type: ignore[no-untyped-def]
 
 def surface_reaction(  # type: ignore[no-untyped-def]
     rows, fluid_count, lists, fluid_counts, ghost_counts, seen_shares, ghost_walls, shares, centres, walls,
-    parameters, partial, loads,
+    images, parameters, partial, loads,
 ):  # fmt: skip
     """Write force and moment of each wall to ``loads``; all arguments as in :func:`wall_reaction`."""
     chunks = partial.shape[0]

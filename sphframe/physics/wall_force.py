@@ -26,6 +26,9 @@ AS_ASSIGNED = True
 """whether ghosts are seen as they were assigned"""
 FORCES = False
 """whether the treatment gives the force"""
+IMAGES = False
+SLOTS = 1
+"""whether images of the fluid take the place of ghosts, and the most images of a particle"""
 
 PER_WHOLE = 1.0 / WHOLE
 
@@ -49,77 +52,81 @@ def add_load(load, row, centre, fx, fy, fz):  # type: ignore[no-untyped-def]
 
 def wall_reaction(  # type: ignore[no-untyped-def]
     rows, fluid_count, lists, fluid_counts, ghost_counts, seen_shares, ghost_walls, shares, centres, walls,
-    parameters, partial, loads,
+    images, parameters, partial, loads,
 ):  # fmt: skip
     """Write force and moment of each wall to ``loads``: (walls, 3) in 2-D, per metre; (walls, 6) in 3-D; N and N m.
 
     ``shares``: :class:`~sphframe.boundary.corners.Shares` of second walls in the forces on ghosts in corners;
-    ``seen_shares``: those in which the particles see the entries;
+    ``seen_shares``: those in which the particles see the entries; ``images``: of the particles;
     ``centres`` (walls, dim): the points to which moments refer, m; ``partial`` (chunks, walls, 3 or 6) is scratch.
     """
     limit = parameters.support * parameters.support
     per_h2 = SUPPORT * SUPPORT / limit
     chunks = partial.shape[0]
+    source = images.rows if IMAGES else rows
     for chunk in numba.prange(chunks):
         partial[chunk] = 0.0
         for i in range(chunk * fluid_count // chunks, (chunk + 1) * fluid_count // chunks):
             c = i // LANES
-            for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
+            fluid = fluid_counts[c]
+            for k in range(0 if IMAGES else fluid, fluid if IMAGES else fluid + ghost_counts[c]):
                 j = lists[c, k]
-                dx = rows[j, 0] - rows[i, 0]
-                dy = rows[j, 1] - rows[i, 1]
-                dz = 0.0
-                r2 = dx * dx + dy * dy
-                if DIM == 3:
-                    dz = rows[j, 2] - rows[i, 2]
-                    r2 += dz * dz
-                if r2 < limit:
-                    g = j - fluid_count
-                    pressures = rows[i, COLUMNS.pressure] + rows[j, COLUMNS.pressure]
-                    u, v, w = rows[j, COLUMNS.u], rows[j, COLUMNS.v], rows[j, COLUMNS.w]
-                    if not AS_ASSIGNED:
-                        separation = Separation(dx, dy, dz, r2)
-                        wall = wall_side(rows, j, walls, g, COLUMNS)
-                    if FORCES:
-                        mass = rows[i, COLUMNS.mass]
-                        ax, ay, az = FORCE(wall, separation, parameters)
-                        fx, fy, fz = -mass * ax, -mass * ay, -mass * az
-                    else:
+                for s in range(images.counts[j] if IMAGES else 1):
+                    row = SLOTS * j + s if IMAGES else j
+                    g = images.ghost[row] if IMAGES else j - fluid_count
+                    dx = source[row, 0] - rows[i, 0]
+                    dy = source[row, 1] - rows[i, 1]
+                    dz = 0.0
+                    r2 = dx * dx + dy * dy
+                    if DIM == 3:
+                        dz = source[row, 2] - rows[i, 2]
+                        r2 += dz * dz
+                    if r2 < limit:
+                        pressures = rows[i, COLUMNS.pressure] + source[row, COLUMNS.pressure]
+                        u, v, w = source[row, COLUMNS.u], source[row, COLUMNS.v], source[row, COLUMNS.w]
                         if not AS_ASSIGNED:
-                            fluid = FluidSide(
-                                rows[i, COLUMNS.pressure], rows[i, COLUMNS.density], rows[i, COLUMNS.u],
-                                rows[i, COLUMNS.v], rows[i, COLUMNS.w] if DIM == 3 else 0.0,
-                            )  # fmt: skip
-                            seen = SEEN(fluid, wall, separation, parameters)
-                            pressures = seen.pressure_sum
-                            u, v, w = seen.viscous_u, seen.viscous_v, seen.viscous_w
-                        approach = (u - rows[i, COLUMNS.u]) * dx + (v - rows[i, COLUMNS.v]) * dy
-                        if DIM == 3:
-                            approach += (w - rows[i, COLUMNS.w]) * dz
-                        weight = parameters.gradient_scale * GRADIENT(r2 * per_h2)
-                        weight *= rows[i, COLUMNS.volume] * rows[j, COLUMNS.volume]
-                        stress = weight * pair_stress(pressures, parameters.viscosity, approach, r2)
-                        fx = stress * dx
-                        fy = stress * dy
-                        fz = stress * dz if DIM == 3 else 0.0
-                        if MORRIS:
-                            friction = weight * parameters.friction
-                            fx += friction * (u - rows[i, COLUMNS.u])
-                            fy += friction * (v - rows[i, COLUMNS.v])
+                            separation = Separation(dx, dy, dz, r2)
+                            wall = wall_side(source, row, walls, g, COLUMNS)
+                        if FORCES:
+                            mass = rows[i, COLUMNS.mass]
+                            ax, ay, az = FORCE(wall, separation, parameters)
+                            fx, fy, fz = -mass * ax, -mass * ay, -mass * az
+                        else:
+                            if not AS_ASSIGNED:
+                                side = FluidSide(
+                                    rows[i, COLUMNS.pressure], rows[i, COLUMNS.density], rows[i, COLUMNS.u],
+                                    rows[i, COLUMNS.v], rows[i, COLUMNS.w] if DIM == 3 else 0.0,
+                                )  # fmt: skip
+                                seen = SEEN(side, wall, separation, parameters)
+                                pressures = seen.pressure_sum
+                                u, v, w = seen.viscous_u, seen.viscous_v, seen.viscous_w
+                            approach = (u - rows[i, COLUMNS.u]) * dx + (v - rows[i, COLUMNS.v]) * dy
                             if DIM == 3:
-                                fz += friction * (w - rows[i, COLUMNS.w])
-                    if MASKED:
-                        share = PER_WHOLE * seen_shares[c, k, i - c * LANES]
-                        fx, fy, fz = share * fx, share * fy, share * fz
-                    other = shares.wall[g]
-                    if other >= 0:
-                        along = fx * shares.dual[g, 0] + fy * shares.dual[g, 1]
-                        ox = along * shares.normal[g, 0]
-                        oy = along * shares.normal[g, 1]
-                        fx -= ox
-                        fy -= oy
-                        add_load(partial[chunk, other], rows[i], centres[other], ox, oy, 0.0)
-                    add_load(partial[chunk, ghost_walls[g]], rows[i], centres[ghost_walls[g]], fx, fy, fz)
+                                approach += (w - rows[i, COLUMNS.w]) * dz
+                            weight = parameters.gradient_scale * GRADIENT(r2 * per_h2)
+                            weight *= rows[i, COLUMNS.volume] * source[row, COLUMNS.volume]
+                            stress = weight * pair_stress(pressures, parameters.viscosity, approach, r2)
+                            fx = stress * dx
+                            fy = stress * dy
+                            fz = stress * dz if DIM == 3 else 0.0
+                            if MORRIS:
+                                friction = weight * parameters.friction
+                                fx += friction * (u - rows[i, COLUMNS.u])
+                                fy += friction * (v - rows[i, COLUMNS.v])
+                                if DIM == 3:
+                                    fz += friction * (w - rows[i, COLUMNS.w])
+                        if MASKED:
+                            share = PER_WHOLE * seen_shares[c, k, i - c * LANES]
+                            fx, fy, fz = share * fx, share * fy, share * fz
+                        other = shares.wall[g]
+                        if other >= 0:
+                            along = fx * shares.dual[g, 0] + fy * shares.dual[g, 1]
+                            ox = along * shares.normal[g, 0]
+                            oy = along * shares.normal[g, 1]
+                            fx -= ox
+                            fy -= oy
+                            add_load(partial[chunk, other], rows[i], centres[other], ox, oy, 0.0)
+                        add_load(partial[chunk, ghost_walls[g]], rows[i], centres[ghost_walls[g]], fx, fy, fz)
     loads[:] = 0.0
     for chunk in range(chunks):
         loads += partial[chunk]

@@ -19,14 +19,19 @@ PER_WHOLE = 1.0 / WHOLE
 # parts bound by specialise()
 CONTINUITY = True
 FORCES = False
+IMAGES = False
+"""whether images of the fluid take the place of ghosts; then the loop runs over the lists of the fluid"""
+SLOTS = 1
+"""most images of a particle"""
 
 
 def wall_sums(  # type: ignore[no-untyped-def]
-    rows, lists, fluid_counts, ghost_counts, shares, walls, parameters, rates
+    rows, lists, fluid_counts, ghost_counts, shares, walls, images, parameters, rates
 ):
     """Add the sums over wall particles to the density rates or, without CONTINUITY, to the accelerations ``rates``.
 
-    ``walls``: :class:`~sphframe.boundary.wall_arrays.WallArrays`; all others as in :func:`fluid_sums`.
+    ``walls``: :class:`~sphframe.boundary.wall_arrays.WallArrays`; ``images``: :class:`~sphframe.boundary.images.Images`
+    of the particles; all others as in :func:`fluid_sums`.
     """
     limit = parameters.support * parameters.support
     per_h2 = SUPPORT * SUPPORT / limit
@@ -36,6 +41,8 @@ def wall_sums(  # type: ignore[no-untyped-def]
             continue
         first = c * LANES
         present = min(LANES, n - first)
+        fluid = fluid_counts[c]
+        source = images.rows if IMAGES else rows
         x, y, z = local_array(LANES), local_array(LANES), local_array(LANES)
         u, v, w = local_array(LANES), local_array(LANES), local_array(LANES)
         density, pressure = local_array(LANES), local_array(LANES)
@@ -52,53 +59,56 @@ def wall_sums(  # type: ignore[no-untyped-def]
             density[a] = rows[i, COLUMNS.density]
             pressure[a] = rows[i, COLUMNS.pressure]
             compression[a] = fx[a] = fy[a] = fz[a] = 0.0
-        for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
+        for k in range(0 if IMAGES else fluid, fluid if IMAGES else fluid + ghost_counts[c]):
             j = lists[c, k]
-            xj = rows[j, 0]
-            yj = rows[j, 1]
-            zj = rows[j, 2] if DIM == 3 else 0.0
-            scale = -parameters.gradient_scale * rows[j, COLUMNS.volume]
-            wall = wall_side(rows, j, walls, j - n, COLUMNS)
-            for a in range(LANES):
-                dx = xj - x[a]
-                dy = yj - y[a]
-                dz = zj - z[a]
-                r2 = fma(dx, dx, dy * dy)
-                if DIM == 3:
-                    r2 = fma(dz, dz, r2)
-                separation = Separation(dx, dy, dz, r2)
-                if FORCES:
-                    ax, ay, az = FORCE(wall, separation, parameters)
-                    share = PER_WHOLE * shares[c, k, a] if MASKED else 1.0
-                    fx[a] += share * ax
-                    fy[a] += share * ay
-                    fz[a] += share * az
-                else:
-                    weight = GRADIENT(r2 * per_h2) * scale
-                    weight = weight if r2 < limit else 0.0
-                    if MASKED:
-                        weight *= PER_WHOLE * shares[c, k, a]
-                    seen = SEEN(FluidSide(pressure[a], density[a], u[a], v[a], w[a]), wall, separation, parameters)
-                    if CONTINUITY:
-                        approach = fma(seen.u - u[a], dx, (seen.v - v[a]) * dy)
-                        if DIM == 3:
-                            approach = fma(seen.w - w[a], dz, approach)
-                        compression[a] = fma(weight, approach, compression[a])
+            for s in range(images.counts[j] if IMAGES else 1):
+                row = SLOTS * j + s if IMAGES else j
+                g = images.ghost[row] if IMAGES else j - n
+                xj = source[row, 0]
+                yj = source[row, 1]
+                zj = source[row, 2] if DIM == 3 else 0.0
+                scale = -parameters.gradient_scale * source[row, COLUMNS.volume]
+                wall = wall_side(source, row, walls, g, COLUMNS)
+                for a in range(LANES):
+                    dx = xj - x[a]
+                    dy = yj - y[a]
+                    dz = zj - z[a]
+                    r2 = fma(dx, dx, dy * dy)
+                    if DIM == 3:
+                        r2 = fma(dz, dz, r2)
+                    separation = Separation(dx, dy, dz, r2)
+                    if FORCES:
+                        ax, ay, az = FORCE(wall, separation, parameters)
+                        share = PER_WHOLE * shares[c, k, a] if MASKED else 1.0
+                        fx[a] += share * ax
+                        fy[a] += share * ay
+                        fz[a] += share * az
                     else:
-                        approach = fma(seen.viscous_u - u[a], dx, (seen.viscous_v - v[a]) * dy)
-                        if DIM == 3:
-                            approach = fma(seen.viscous_w - w[a], dz, approach)
-                        stress = weight * pair_stress(seen.pressure_sum, parameters.viscosity, approach, r2)
-                        fx[a] = fma(stress, dx, fx[a])
-                        fy[a] = fma(stress, dy, fy[a])
-                        if DIM == 3:
-                            fz[a] = fma(stress, dz, fz[a])
-                        if MORRIS:
-                            friction = weight * parameters.friction
-                            fx[a] = fma(friction, seen.viscous_u - u[a], fx[a])
-                            fy[a] = fma(friction, seen.viscous_v - v[a], fy[a])
+                        weight = GRADIENT(r2 * per_h2) * scale
+                        weight = weight if r2 < limit else 0.0
+                        if MASKED:
+                            weight *= PER_WHOLE * shares[c, k, a]
+                        seen = SEEN(FluidSide(pressure[a], density[a], u[a], v[a], w[a]), wall, separation, parameters)
+                        if CONTINUITY:
+                            approach = fma(seen.u - u[a], dx, (seen.v - v[a]) * dy)
                             if DIM == 3:
-                                fz[a] = fma(friction, seen.viscous_w - w[a], fz[a])
+                                approach = fma(seen.w - w[a], dz, approach)
+                            compression[a] = fma(weight, approach, compression[a])
+                        else:
+                            approach = fma(seen.viscous_u - u[a], dx, (seen.viscous_v - v[a]) * dy)
+                            if DIM == 3:
+                                approach = fma(seen.viscous_w - w[a], dz, approach)
+                            stress = weight * pair_stress(seen.pressure_sum, parameters.viscosity, approach, r2)
+                            fx[a] = fma(stress, dx, fx[a])
+                            fy[a] = fma(stress, dy, fy[a])
+                            if DIM == 3:
+                                fz[a] = fma(stress, dz, fz[a])
+                            if MORRIS:
+                                friction = weight * parameters.friction
+                                fx[a] = fma(friction, seen.viscous_u - u[a], fx[a])
+                                fy[a] = fma(friction, seen.viscous_v - v[a], fy[a])
+                                if DIM == 3:
+                                    fz[a] = fma(friction, seen.viscous_w - w[a], fz[a])
         for a in range(present):
             i = first + a
             if CONTINUITY:

@@ -57,6 +57,7 @@ DISTRIBUTIONS = {
     ("wall_treatments", "dynamic-2007"): "sphframe-dynamic",
     ("wall_treatments", "lennard-jones"): "sphframe-lennard-jones",
     ("wall_treatments", "monaghan-kajtar-2009"): "sphframe-monaghan-kajtar",
+    ("wall_treatments", "mirror-images"): "sphframe-mirror-images",
     ("wall_treatments", "riemann-2017"): "sphframe-riemann",
     ("wall_treatments", "pair-mirror"): "sphframe-pair-mirror",
     ("wall_treatments", "distance-ratio"): "sphframe-distance-ratio",

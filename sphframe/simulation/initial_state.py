@@ -84,7 +84,7 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     """
     dim, spacing = case.dimension, case.particle_spacing
     start = drawn(case, scene, components, parameters)
-    if components.wall_treatment.geometry is WallGeometry.LAYERS:
+    if components.wall_treatment.geometry is not WallGeometry.ROW:
         check_filling(start.filling, scene.walls, refuse=case.guards.filling == "stop")
     boundary, position, members = start.boundary, start.position, start.region
     half_edge = 0.5 * components.wall_treatment.row_spacing * spacing
@@ -118,7 +118,10 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
         boundary.wall_state[:] = hydrostatic_densities(boundary, position, pressure, components, parameters)
     contacts = _contacts(scene, boundary, position, spacing, parameters)
     parts = {**components.parts, "MASKED": boundary.sides is not None}
-    loops = RateLoops(parts, components.compiled_kernel, components.walls, attracts=case.tension != "none")
+    loops = RateLoops(
+        parts, components.compiled_kernel, components.walls, attracts=case.tension != "none",
+        images=components.wall_treatment.geometry is WallGeometry.IMAGES,
+    )  # fmt: skip
     states = WallStates(boundary, components.walls.rate, components.parts)
     filling = initial_filling(case, components)
     force = components.body_force

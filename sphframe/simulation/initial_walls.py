@@ -5,7 +5,7 @@ from scipy.spatial import cKDTree
 
 from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
-from sphframe.boundary.filling import Filling
+from sphframe.boundary.filling import Filling, ImageFilling
 from sphframe.cases import Case, Scene
 from sphframe.compiled import specialise
 from sphframe.errors import InputError
@@ -24,7 +24,7 @@ def initial_boundary(case: Case, scene: Scene, components: Components, parameter
     InputError: when a wall is too thin for the treatment.
     """
     interpolator, treatment = components.interpolator, components.wall_treatment
-    in_row = treatment.geometry is WallGeometry.ROW
+    in_row, of_images = (treatment.geometry is kind for kind in (WallGeometry.ROW, WallGeometry.IMAGES))
     boundary = Boundary(
         scene.walls,
         scene.bodies,
@@ -32,10 +32,10 @@ def initial_boundary(case: Case, scene: Scene, components: Components, parameter
         fluid=scene.fluid,
         spacing=case.particle_spacing,
         support=parameters.support,
-        no_slip=case.slip == "no",
+        no_slip=case.slip == "no" and not of_images,
         row_spacing=treatment.row_spacing * case.particle_spacing if in_row else None,
     )
-    if in_row or components.walls.surface is not None:
+    if in_row or of_images or components.walls.surface is not None:
         _check_thick(boundary)
     if case.tension == "none" and interpolator is not None:
         filled = filling_by(boundary.position, boundary.volume, boundary.points, components, parameters, boundary.sight)
@@ -44,7 +44,7 @@ def initial_boundary(case: Case, scene: Scene, components: Components, parameter
 
 
 def _check_thick(boundary: Boundary) -> None:
-    """Refuse thin walls for treatments that take the walls themselves, or particles on them, for ghosts."""
+    """Refuse thin walls for treatments that take the walls themselves, particles on them or images for ghosts."""
     if boundary.sight is not None:
         x, y = boundary.sight.ends[np.argmax(boundary.sight.thin), :2]
         raise InputError(
@@ -54,8 +54,12 @@ def _check_thick(boundary: Boundary) -> None:
         )
 
 
-def initial_filling(case: Case, components: Components) -> Filling:
+def initial_filling(case: Case, components: Components) -> Filling | ImageFilling:
     """Return the loop that fills the wall particles."""
+    if components.wall_treatment.geometry is WallGeometry.IMAGES:
+        return ImageFilling(
+            components.parts, components.walls, tension=case.tension, lowest_pressure=case.lowest_pressure
+        )
     return Filling(
         components.interpolator,
         components.compiled_kernel,

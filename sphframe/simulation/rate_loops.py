@@ -6,6 +6,7 @@ from typing import Any
 from sphframe.arrays import Array, IntArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.corners import Shares
+from sphframe.boundary.images import SLOTS
 from sphframe.compiled import specialise
 from sphframe.interfaces import CompiledKernel, WallParts
 from sphframe.neighbours import NeighbourLists
@@ -25,13 +26,23 @@ class RateLoops:
     """Density rates, accelerations and wall loads with the compiled ``parts`` and the ``walls`` of the treatment.
 
     Where the treatment leaves ghosts as they were assigned, one loop sums over fluid and ghosts. Else a second one
-    sums over the ghosts. ``attracts``: whether a pair of fluid and ghost may attract.
+    sums over the ghosts. ``attracts``: whether a pair of fluid and ghost may attract; ``images``: whether images of
+    the fluid take the place of ghosts.
     """
 
-    def __init__(self, parts: Mapping[str, Any], kernel: CompiledKernel, walls: WallParts, *, attracts: bool) -> None:
+    def __init__(
+        self, parts: Mapping[str, Any], kernel: CompiledKernel, walls: WallParts, *, attracts: bool, images: bool
+    ) -> None:
         own = walls.seen, walls.force, walls.surface
         as_assigned = own == (None, None, None) and walls.friction and attracts and not walls.own_viscous_velocity
-        bound = {**parts, "AS_ASSIGNED": as_assigned, "FORCES": walls.force is not None}
+        as_assigned = as_assigned and not images
+        bound = {
+            **parts,
+            "AS_ASSIGNED": as_assigned,
+            "FORCES": walls.force is not None,
+            "IMAGES": images,
+            "SLOTS": SLOTS,
+        }
         if not as_assigned:
             bound["KINDS"] = 1
             bound["SEEN"] = make_seen(walls, attracts=attracts)
@@ -65,7 +76,7 @@ class RateLoops:
         near = lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares
         self._fluid[continuity](rows, *near, parameters, gradient, rates)
         if continuity in self._walls:
-            self._walls[continuity](rows, *near, boundary.arrays, parameters, rates)
+            self._walls[continuity](rows, *near, boundary.arrays, boundary.images, parameters, rates)
 
     def react(
         self,
@@ -82,7 +93,7 @@ class RateLoops:
         """Write the loads on ``walls``, see :func:`sphframe.physics.wall_force.wall_reaction`."""
         self._reaction(
             rows, lists.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares, walls,
-            shares, centres, boundary.arrays, parameters, partial, loads,
+            shares, centres, boundary.arrays, boundary.images, parameters, partial, loads,
         )  # fmt: skip
 
 

@@ -12,7 +12,7 @@ from sphframe.arrays import Array, Arrays, BoolArray, IntArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.contact import put_back
 from sphframe.boundary.corners import Shares
-from sphframe.boundary.filling import Filling
+from sphframe.boundary.filling import Filling, ImageFilling
 from sphframe.boundary.wall_states import WallStates
 from sphframe.compiled import specialise
 from sphframe.interfaces import BodyForce, System
@@ -46,7 +46,7 @@ class FluidSystem(System):
         self,
         rows: Array,
         boundary: Boundary,
-        filling: Filling,
+        filling: Filling | ImageFilling,
         lists: NeighbourLists,
         loops: RateLoops,
         wall_states: WallStates,

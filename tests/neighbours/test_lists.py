@@ -37,7 +37,7 @@ def test_lists_hold_the_pairs_within_the_radius(dim, seed, fluid, ghosts, scale,
         near = (np.linalg.norm(position[:, None] - members, axis=2) < lists.radius).any(axis=1)
         outside = np.maximum(np.maximum(members.min(axis=0) - position, position - members.max(axis=0)), 0.0)
         near_the_box = np.linalg.norm(outside, axis=1) < lists.radius * (1.0 + 1e-12)
-        if len(members) == 1:
+        if cluster == 1:
             near[c * cluster] = near_the_box[c * cluster] = False
         first, second = int(lists.fluid_counts[c]), int(lists.ghost_counts[c])
         found = lists.fluid[c, : first + second].astype(int)

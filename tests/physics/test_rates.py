@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sphframe.boundary.corners import Shares
+from sphframe.boundary.images import Images
 from sphframe.compiled import LANES, specialise
 from sphframe.neighbours.sight import WHOLE
 from sphframe.particles import Columns
@@ -148,7 +149,7 @@ def test_wall_reaction_is_opposite_to_what_ghosts_do_to_the_fluid(dim, hidden):
     loads, partial = np.full((2, size), np.nan), np.full((7, 2, size), np.nan)
     specialise(wall_reaction, cloud.parts())(
         cloud.rows, cloud.fluid_count, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, cloud.shares, walls,
-        Shares(np.full_like(walls, -1), nothing, nothing), np.zeros((2, dim)), cloud.walls(),
+        Shares(np.full_like(walls, -1), nothing, nothing), np.zeros((2, dim)), cloud.walls(), Images.of(0, dim),
         cloud.parameters(viscosity=viscosity),
         partial, loads,
     )  # fmt: skip

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from sphframe.boundary.corners import Shares
+from sphframe.boundary.images import Images
 from sphframe.compiled import specialise
 from sphframe.interfaces import FluidSide, Seen, WallParts, WallSide
 from sphframe.particles import Columns
@@ -89,7 +90,8 @@ def rates_of(cloud, walls, parts, attracts, continuity):
     rates = np.zeros((cloud.fluid_count, 2 * cloud.dim + 1))
     parameters = cloud.parameters(viscosity=VISCOSITY, friction=FRICTION)
     specialise(wall_sums, bound)(
-        cloud.rows, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, cloud.shares, walls, parameters, rates
+        cloud.rows, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, cloud.shares, walls, Images.of(0, cloud.dim),
+        parameters, rates,
     )  # fmt: skip
     return rates
 
@@ -131,7 +133,7 @@ def test_walls_bear_minus_what_they_exert(dim, parts):
     specialise(wall_reaction, bound)(
         cloud.rows, cloud.fluid_count, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, cloud.shares,
         (np.arange(ghosts) % 2).astype(np.int64), Shares(np.full(ghosts, -1), nothing, nothing), np.zeros((2, dim)),
-        walls, cloud.parameters(viscosity=VISCOSITY, friction=FRICTION), partial, loads,
+        walls, Images.of(0, dim), cloud.parameters(viscosity=VISCOSITY, friction=FRICTION), partial, loads,
     )  # fmt: skip
     np.testing.assert_allclose(loads[:, :dim].sum(axis=0), -forces.sum(axis=0), rtol=1e-10)
     if dim == 2:
