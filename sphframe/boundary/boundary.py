@@ -73,7 +73,10 @@ class Boundary:
         self.centres = np.zeros((len(names), self.dim))
         for k, body in enumerate(self.bodies.values()):
             self.centres[k, : len(body.centre)] = body.centre
-        self.sides = None if sides is None else WallSides(sides[0], self.group_body[sides[1]], self.centres, spacing)
+        self.sides = None
+        if sides is not None:
+            reach = layers * spacing
+            self.sides = WallSides(sides[0], self.group_body[sides[1]], self.centres, spacing, reach)
         self._corners = Corners(self.groups, drawn, self.wall_body, self.centres, 1.5 * support)
         self._drawn = drawn
         self._drawn_reflection = np.tile(-np.eye(self.dim), (len(self.wall), 1, 1)) if no_slip else drawn.reflection
@@ -149,10 +152,11 @@ class Boundary:
                 position, velocity, acceleration, rotations.reshape(-1, 3, 3),
                 self.position, self.mirror, self.foot, self.normal, self.reflection, self.velocity, self.acceleration,
             )  # fmt: skip
-            if self.points is not self.position:
-                np.subtract(self.position, self.points, out=self.lifts)
             if self.sides is not None:
                 self.sides.move(motions)
+                self.sides.reflect(self.body, self.mirror, self.reflection)
+            if self.points is not self.position:
+                np.subtract(self.position, self.points, out=self.lifts)
         np.multiply(self.acceleration, -density, out=self.driving)
         self.driving += driving_force
         if gradient is not None:
@@ -169,7 +173,8 @@ class Boundary:
 
     def corner_shares(self, motions: Sequence[Motion]) -> Shares:
         """Return the second walls that take part of the forces on ghosts."""
-        return self._corners.shares(self.position, motions)
+        shares = self._corners.shares(self.position, motions)
+        return shares if self.sides is None else self.sides.share(shares, self.normal)
 
     def state(self) -> dict[str, Array]:
         """Return copies of all arrays that change during a run, by name."""

@@ -64,13 +64,14 @@ class Sides(NamedTuple):
     """Sides of plane walls, which hide what is behind them (:mod:`sphframe.geometry.charts`).
 
     ``ends`` (k, 4): x, y of their starts and ends, m, with the fluid on the left; ``tips`` (k, 2): 1 where these
-    are ends of lines, -1 where they are corners between charts, else 0; the ``chart`` (k,) of each side, and whether it
-    is ``thin`` (k,). ``ghost_chart`` (g,) and ``kind`` (g,) are those of the ghosts.
+    are ends of lines, -1 where they are corners between charts, else 0; the ``chart`` (k,) of each side, its ``wall``
+    (k,), and whether it is ``thin`` (k,). ``ghost_chart`` (g,) and ``kind`` (g,) are those of the ghosts.
     """
 
     ends: Array
     tips: IntArray
     chart: IntArray
+    wall: IntArray
     thin: BoolArray
     ghost_chart: IntArray
     kind: IntArray
@@ -178,7 +179,7 @@ class PlaneWalls(WallGroup):
         tips = np.zeros((len(ends), 2), np.int64)
         for own, chart in enumerate(charts):
             tips[np.flatnonzero(number == own)[[0, -1]], [0, 1]] = chart.tips
-        return Sides(ends, tips, number, thin[edges], ghost_chart, kind)
+        return Sides(ends, tips, number, self._indices[self.domain.wall[edges]], thin[edges], ghost_chart, kind)
 
     def _made(self, spacing: float, layers: int) -> tuple[GhostPoints, IntArray, IntArray]:
         """Return the ghosts, their charts (g,) and the kinds (g,) of their walls; made once, for ghosts and sides."""

@@ -4,6 +4,10 @@ A particle sees another one if no side of a thin wall is on the straight line be
 side of any wall that this line enters from the fluid is one of the ghost's own chart
 (:mod:`sphframe.geometry.charts`); behind thick walls it also sees ghosts where the line enters no side.
 
+A thin wall that stands on a thick one, and moves otherwise, such as a gate on a bed, is continued into it. A line that
+has entered the bed and then crosses the continuation sees the ghosts of the gate: those of the bed are filled from the
+fluid on the other side there. If there is a gap s between gate and bed, this holds in the share 1 - s/dx.
+
 A line that passes the end of a wall without thickness at the distance s is stopped in the share 1/2 - s/dx (s < 0
 where it meets the wall), between 0 and 1, and one that cuts a corner of a thin solid at the distance s in the share
 s/dx. What one particle does not see of another one, it sees of ghosts in its place. With shares of 0 and 1 alone, sums
@@ -20,7 +24,7 @@ from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.compiled import LANES
 
 WHOLE = 128
-"""share in which a neighbour is seen if nothing hides it; shares are bytes"""
+"""share in which a neighbour is seen if nothing hides it; shares are bytes, and at most 1.5"""
 
 
 class Sight(NamedTuple):
@@ -28,14 +32,15 @@ class Sight(NamedTuple):
 
     ``ends`` (k, 4): x, y of start and end of each side, m, the fluid on its left; ``smooth`` (k, 2): dx where the start
     and the end of a side are ends of a line, -dx where they are corners of a thin solid, else 0; ``chart`` (k,);
-    ``thin`` (k,), whether it hides particles. ``ghost_chart`` (g,); ``ghost_thin`` (g,), whether a ghost is seen only
-    through its chart.
-    """
+    ``thin`` (k,), whether it hides particles;"""
 
     ends: Array
     smooth: Array
     chart: IntArray
     thin: BoolArray
+    beyond: IntArray
+    body: IntArray
+    spacing: float
     ghost_chart: IntArray
     ghost_thin: BoolArray
 
@@ -88,14 +93,14 @@ def _depth(px, py, qx, qy, k, sight):  # type: ignore[no-untyped-def]
 def _stopped(px, py, qx, qy, k, near, count, sight):  # type: ignore[no-untyped-def]
     """Return the share of the line from p to q that side ``k`` stops, and where, as a share of the line."""
     share, place = _crossed(px, py, qx, qy, k, sight)
-    if share <= 0.0:
+    if share <= 0.0 or sight.beyond[k] != 0:
         return 0.0, math.inf
     if sight.thin[k]:
         leaves = math.inf
         last = -1
         for m in range(count):
             back, where = _crossed(px, py, qx, qy, near[m], sight)
-            if back < 0.0 and where > place + 1e-9 and where < leaves:
+            if back < 0.0 and sight.beyond[near[m]] == 0 and where > place + 1e-9 and where < leaves:
                 leaves = where
                 last = near[m]
         if last >= 0:
@@ -115,6 +120,75 @@ def share_of_fluid(px, py, qx, qy, near, count, sight):  # type: ignore[no-untyp
     return max(seen, 0.0)
 
 
+@numba.njit(inline="always")
+def _continues(k, wall, sight):  # type: ignore[no-untyped-def]
+    """Whether side ``k`` belongs to a thin wall, or its continuation, that may reach into the side ``wall``."""
+    return (sight.thin[k] or sight.beyond[k] != 0) and sight.body[k] != sight.body[wall]
+
+
+@numba.njit(inline="always")
+def _closed(k, wall, sight):  # type: ignore[no-untyped-def]
+    """Return the share in which side ``k`` of a thin wall, or its continuation, counts behind the side ``wall``."""
+    if sight.beyond[k] == 0:
+        return 1.0
+    ax, ay, bx, by = sight.ends[wall]
+    x, y, further_x, further_y = sight.ends[k]
+    if sight.beyond[k] < 0:
+        x, y, further_x, further_y = further_x, further_y, x, y
+    height = _area(ax, ay, bx, by, x, y)
+    steepness = height - _area(ax, ay, bx, by, further_x, further_y)
+    if steepness <= 0.0:
+        return 0.0
+    gap = height / steepness * math.hypot(further_x - x, further_y - y)
+    return min(max(1.0 - gap / sight.spacing, 0.0), 1.0)
+
+
+@numba.njit(error_model="numpy")
+def _before(px, py, qx, qy, wall, near, count, sight):  # type: ignore[no-untyped-def]
+    """Return the share of a ghost at q, behind the side ``wall``, that lies before the thin walls that continue there.
+
+    Its length along the wall is cut, or extended, to where these walls are.
+    """
+    ax, ay, bx, by = sight.ends[wall]
+    wall_length = math.hypot(bx - ax, by - ay)
+    least = 1e-6 * sight.spacing
+    changed = 0.0
+    for k in range(count):
+        side = near[k]
+        if not _continues(side, wall, sight):
+            continue
+        cx, cy, ex, ey = sight.ends[side]
+        length = math.hypot(ex - cx, ey - cy)
+        before = _area(cx, cy, ex, ey, qx, qy) / (length * sight.spacing)
+        front = _area(cx, cy, ex, ey, px, py) / (length * sight.spacing)
+        if front <= 0.0 or before > 1.0 - 1e-3:
+            continue
+        share = before / (before - front) if before < -1e-3 else 0.0  # where the line to p crosses the wall
+        x, y = qx + share * (px - qx), qy + share * (py - qy)
+        along = ((x - cx) * (ex - cx) + (y - cy) * (ey - cy)) / length
+        if along < -least or along > length + least or _area(ax, ay, bx, by, x, y) > least * wall_length:
+            continue
+        change = _closed(side, wall, sight) * (before - 0.5 if before > -1e-3 else -1.0)
+        if abs(change) > abs(changed):
+            changed = change
+    return 1.0 + changed
+
+
+@numba.njit(error_model="numpy")
+def _behind(px, py, qx, qy, wall, entered, g, near, count, sight):  # type: ignore[no-untyped-def]
+    """Return the share of ghost ``g`` of a thin wall, at q, that is seen through the side ``wall`` of another wall."""
+    first = math.inf
+    closed = 0.0
+    for k in range(count):
+        side = near[k]
+        if _continues(side, wall, sight):
+            share, place = _crossed(px, py, qx, qy, side, sight)
+            if share > 0.0 and entered - 1e-9 < place < first:
+                first = place
+                closed = _closed(side, wall, sight) if sight.chart[side] == sight.ghost_chart[g] else 0.0
+    return closed
+
+
 @numba.njit(error_model="numpy")
 def share_of_ghost(px, py, qx, qy, g, near, count, sight):  # type: ignore[no-untyped-def]
     """Return the share in which a particle at p sees ghost ``g`` at q: what the sides of its chart stop of the line.
@@ -127,17 +201,22 @@ def share_of_ghost(px, py, qx, qy, g, near, count, sight):  # type: ignore[no-un
     while left > 0.0:
         first = math.inf
         share = 0.0
-        chart = -1
+        side = -1
         for k in range(count):
             stopped, place = _stopped(px, py, qx, qy, near[k], near, count, sight)
             if stopped > 0.0 and last < place < first:
                 first = place
                 share = stopped
-                chart = sight.chart[near[k]]
+                side = near[k]
         if first == math.inf:
             break
-        if chart == sight.ghost_chart[g]:
-            seen += min(share, left)
+        seen_there = 1.0 if sight.chart[side] == sight.ghost_chart[g] else 0.0
+        if not sight.thin[side]:
+            if seen_there > 0.0:
+                seen_there = _before(px, py, qx, qy, side, near, count, sight)
+            else:
+                seen_there = _behind(px, py, qx, qy, side, first, g, near, count, sight)
+        seen += seen_there * min(share, left)
         left -= share
         last = first
     return 1.0 if left == 1.0 and not sight.ghost_thin[g] else seen

@@ -30,7 +30,7 @@ class Seen:
         rows = columns.zeros(n + len(self.ghosts.position))
         rows[:n, :2], rows[n:, :2] = position, self.ghosts.position
         at_rest = np.full(len(self.sides.ends), -1)
-        sight = WallSides(self.sides, at_rest, np.zeros((0, 2)), SPACING if smooth else 0.0).sight
+        sight = WallSides(self.sides, at_rest, np.zeros((0, 2)), SPACING if smooth else 0.0, 0.1).sight
         lists = NeighbourLists(
             2, n, len(rows) - n, 3.9 * SPACING, 0.39 * SPACING, cluster=LANES, width=2.1 * SPACING, sight=sight
         )

@@ -30,6 +30,7 @@ def made(walls, fluid, **other):
 
 def basins(width=0.0, **other):
     wall = solid(width) if width else plate((0.5, 0), (0.5, 0.48))
+    wall["body"] = next(iter(other.get("bodies", ())), None)
     edge = 0.5 * width
     return made([wall], [region((0, 0), (0.5 - edge, 0.4)), region((0.5 + edge, 0), (1, 0.2))], **other)
 
@@ -43,9 +44,12 @@ def largest_speed(simulation):
     return float(np.hypot(*simulation.fields().velocity.T).max())
 
 
-@pytest.mark.parametrize("width", [0.0, 0.01, 0.04])
-def test_two_basins_with_different_levels_beside_a_plate(width):
-    simulation = basins(width)
+@pytest.mark.parametrize(("width", "held"), [(0.0, False), (0.01, False), (0.04, False), (0.0, True), (0.01, True)])
+def test_two_basins_with_different_levels_beside_a_plate(tmp_path, width, held):
+    path = tmp_path / "held.txt"
+    path.write_text("0, 0, 0\n10, 0, 0\n")
+    gate = {"bodies": {"gate": {"name": "displacement-series", "path": str(path)}}}  # a closed gate stands on the bed
+    simulation = basins(width, **gate if held else {})
     left = simulation.fields().position[:, 0] < 0.5
     forces = []
     while simulation.time < 0.2:
@@ -53,6 +57,7 @@ def test_two_basins_with_different_levels_beside_a_plate(width):
         if simulation.time > 0.1 and simulation.step % 10 == 0:
             load = simulation.wall_loads()["plate"]
             forces.append((load.force[0], load.force_by_pressure[0]))
+            assert abs(load.force[1]) < 6.0
     np.testing.assert_array_equal(simulation.fields().position[:, 0] < 0.5, left)
     assert simulation.particles_outside() == 0
     assert largest_speed(simulation) < 0.02 * np.sqrt(9.81 * 0.4)
