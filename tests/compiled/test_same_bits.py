@@ -10,7 +10,7 @@ import pytest
 RUN = """
 import hashlib, sys
 from sphframe import run
-last = run("dam-break", output=sys.argv[1], threads=1, particle_spacing=0.03, until=0.2).dataset.isel(time=-1)
+last = run("dam-break", output=sys.argv[1], particle_spacing=0.03, until=0.2).dataset.isel(time=-1)
 state = b"".join(last[name].values.tobytes() for name in ("position", "velocity", "density"))
 print(hashlib.sha256(state).hexdigest())
 """

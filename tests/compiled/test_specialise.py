@@ -4,6 +4,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numba
 import numpy as np
 import pytest
 
@@ -44,6 +45,15 @@ def test_equal_parts_give_the_same_loop():
     one = specialise(template, {"PART": power(2), "OFFSET": 1.0}, parallel=False)
     assert one is specialise(template, {"PART": power(2), "OFFSET": 1.0}, parallel=False)
     assert compile_part(power(2)) is compile_part(power(2))
+
+
+def test_a_loop_for_one_thread_is_compiled_without_threads(monkeypatch):
+    loops = []
+    for threads in (1, 2, 1):
+        monkeypatch.setattr(numba, "get_num_threads", lambda threads=threads: threads)
+        loops.append(specialise(template, {"PART": power(3), "OFFSET": 0.0}))
+    assert [loop.targetoptions["parallel"] for loop in loops] == [False, True, False]
+    assert loops[0] is loops[2]
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ def box(*corners: tuple[float, float], **state: Any) -> dict[str, Any]:
 
 
 def start(made: Custom) -> tuple[np.ndarray, np.ndarray, Simulation]:
-    simulation = Simulation(made)
+    simulation = Simulation(made, threads=1)
     fields = simulation.fields()
     return fields.position, fields.pressure, simulation
 
@@ -84,7 +84,7 @@ def test_the_rest_state_of_a_level_is_that_of_water_up_to_there() -> None:
 def test_a_polygon_has_the_mass_of_its_area(dx: float) -> None:
     slope = {"shape": "polygon", "points": ((0, 0), (1, 0), (1.3, 0.3), (0, 0.3))}
     wall = {"shape": "polygon", "name": "tank", "points": ((0, 0.5), (0, 0), (1, 0), (1.5, 0.5))}
-    simulation = Simulation(case(slope, walls=(wall,), dx=dx))
+    simulation = Simulation(case(slope, walls=(wall,), dx=dx), threads=1)
     mass = simulation.masses()
     assert np.sum(mass / simulation.fields().density) == pytest.approx(0.345, rel=1e-12)
     # the density averages 1 + g y / c0^2 over the depth: a little more than that at the surface

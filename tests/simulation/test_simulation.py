@@ -33,7 +33,7 @@ def test_rest_pressure_is_the_closed_form_of_the_linear_equation_of_state():
 
 @pytest.mark.parametrize("integrator", ["symplectic", "rk4"])
 def test_still_water_stays_still(integrator):
-    simulation = Simulation(tank(integrator=integrator, particle_spacing=0.025))  # divides the tank
+    simulation = Simulation(tank(integrator=integrator, particle_spacing=0.025), threads=1)  # divides the tank
     advance_to(simulation, 0.2)
     fields = simulation.fields()
     assert np.abs(fields.velocity).max() < 0.02
@@ -49,7 +49,7 @@ def test_three_dimensions_rest():
     case = load_case(
         "hydrostatic-tank", preset=None, overrides={"dimension": 3, "particle_spacing": 0.05, "until": 0.1}
     )
-    simulation = Simulation(case)
+    simulation = Simulation(case, threads=1)
     advance_to(simulation, 0.1)
     fields = simulation.fields()
     expected = 9810.0 * (0.3 - fields.position[:, 2])
@@ -88,7 +88,7 @@ def test_sound_runs_up_and_down_the_tank():
         frame_interval=1.0,
         probe_interval=0.001,
     )
-    simulation = Simulation(case)
+    simulation = Simulation(case, threads=1)
     fluid, columns = simulation.system.rows[: simulation.fluid_count], simulation.columns
     fluid[:, columns.density] = 1000.0
     fluid[:, columns.mass] = 1000.0 * spacing**2
@@ -105,7 +105,7 @@ def test_sound_runs_up_and_down_the_tank():
 
 
 def test_runaway_state_stops_with_its_place():
-    simulation = Simulation(tank())
+    simulation = Simulation(tank(), threads=1)
     simulation.system.rows[5, simulation.columns.velocity] = np.nan
     with pytest.raises(sphframe.SimulationError) as caught:
         advance_to(simulation, 0.01)
@@ -114,14 +114,14 @@ def test_runaway_state_stops_with_its_place():
 
 
 def test_fields_keep_the_original_order():
-    simulation = Simulation(tank())
+    simulation = Simulation(tank(), threads=1)
     before = simulation.fields().position
     simulation.system.find_neighbours()
     np.testing.assert_array_equal(simulation.fields().position, before)
 
 
 def test_reading_a_simulation_changes_no_step():
-    one, other = Simulation(tank()), Simulation(tank())
+    one, other = Simulation(tank(), threads=1), Simulation(tank(), threads=1)
     for _ in range(20):
         one.advance()
         other.advance()
@@ -131,7 +131,7 @@ def test_reading_a_simulation_changes_no_step():
 
 
 def test_a_particle_behind_a_wall_is_put_back_on_it():
-    simulation = Simulation(tank())
+    simulation = Simulation(tank(), threads=1)
     rows, c = simulation.system.rows, simulation.columns
     left = int(np.argmin(rows[: simulation.fluid_count, 0]))
     rows[left, c.position.start], rows[left, c.velocity] = -0.004, (-1.0, 0.5)
@@ -142,7 +142,7 @@ def test_a_particle_behind_a_wall_is_put_back_on_it():
 
 
 def test_wall_force_of_still_water():
-    simulation = Simulation(tank(particle_spacing=0.01))
+    simulation = Simulation(tank(particle_spacing=0.01), threads=1)
     walls = simulation.wall_forces()
     reaction = np.sum([force[0] for force in walls.values()], axis=0)
     integral = np.sum([force[1] for force in walls.values()], axis=0)

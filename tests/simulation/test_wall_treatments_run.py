@@ -9,7 +9,7 @@ from sphframe import Simulation, available, load_case
 TREATMENTS = [entry.name for entry in available("wall_treatments")]
 SMALL = {
     "particle_spacing": 0.06, "until": 1.0, "slip": "no", "frame_interval": 1.0, "probe_interval": 1.0,
-    "hydrostatic_lift": "balanced",
+    "hydrostatic_lift": "balanced", "tension": "free", "kinematic_viscosity": 1e-3,
 }  # fmt: skip
 
 
