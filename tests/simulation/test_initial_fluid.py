@@ -54,7 +54,9 @@ def test_a_wall_between_two_regions_separates_their_surfaces() -> None:
 
     scene = Custom(particle_spacing=0.02, until=1.0, walls=(TANK, plate), fluid=regions).scene()
     groups = [group for _, group in wall_groups(scene.walls[:1], scene.fluid, 0.02)]
-    found = still_levels(scene, [fill(region, 0.02).position for region in scene.fluid], 0.02, groups)
+    found = still_levels(
+        scene, [fill(region, 0.02).position for region in scene.fluid], 0.02, groups, np.array([0.0, 1.0])
+    )
     np.testing.assert_allclose(found, [0.2, 0.4])
 
 

@@ -18,6 +18,7 @@ def started(treatment, integrator, threads):
     return Simulation(load_case("dam-break", None, given), threads=threads)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("treatment", "integrator"),
     [*((name, "symplectic") for name in TREATMENTS), ("pair-mirror", "rk4"), ("dynamic-2007", "rk4")],

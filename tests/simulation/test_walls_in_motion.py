@@ -88,10 +88,9 @@ def test_tank_swung_with_no_net_change_returns_to_rest() -> None:
     assert simulation.particles_outside() == 0
 
 
-@pytest.mark.slow
 def test_floating_box_finds_archimedes_draught() -> None:
     case = FloatingBody(
-        depth=0.3, tank_length=0.8, box_length=0.24, box_height=0.16, particle_spacing=0.01, initial_draught=0.06
+        depth=0.3, tank_length=0.8, box_length=0.24, box_height=0.16, particle_spacing=0.02, initial_draught=0.06
     )
     simulation = Simulation(case, threads=1)
     draughts = []

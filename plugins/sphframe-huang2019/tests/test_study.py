@@ -77,6 +77,7 @@ def test_the_tasks_of_a_section_differ_and_are_valid(name: str, quick: bool) -> 
     assert all(task.weight > 0.0 for task in own)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:Attempting to set identical low and high")
 def test_the_report_has_every_figure_table_and_claim(cluster: str, tmp_path: Path) -> None:
     write_reference_series(tmp_path)

@@ -28,7 +28,7 @@ def test_hydrostatic_force_by_both_methods(angle: float, method: str) -> None:
 
 @pytest.mark.slow
 def test_spring_wall_waits_for_its_threshold_then_gives_way() -> None:
-    common: dict[str, Any] = {"tank_length": 1.0, "wave_height": 0.08, "particle_spacing": 0.01}
+    common: dict[str, Any] = {"tank_length": 1.0, "wave_height": 0.08, "particle_spacing": 0.02}
     simulation = Simulation(SolitaryWaveMovableWall(**common), threads=1)
     threshold = 1.1 * 0.5 * 9810.0 * 0.2**2
     work, before, seen = 0.0, (0.0, 0.0), False
