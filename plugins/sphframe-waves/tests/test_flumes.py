@@ -26,7 +26,6 @@ def test_hydrostatic_force_by_both_methods(angle: float, method: str) -> None:
     assert simulation.particles_outside() == 0
 
 
-@pytest.mark.slow
 def test_spring_wall_waits_for_its_threshold_then_gives_way() -> None:
     common: dict[str, Any] = {"tank_length": 1.0, "wave_height": 0.08, "particle_spacing": 0.02}
     simulation = Simulation(SolitaryWaveMovableWall(**common), threads=1)
