@@ -13,6 +13,7 @@ from sphframe.boundary.wall_arrays import WallArrays
 from sphframe.geometry import Shape, Wall, ghosts_of, rotation_matrix, row_of, sides_of, wall_groups
 from sphframe.interfaces import EvaluationPoint, Motion, RigidBody, Status
 from sphframe.neighbours import Sight
+from sphframe.particles import Periods
 
 _STATE = (
     "position", "mirror", "foot", "normal", "reflection", "velocity", "acceleration", "driving", "statuses",
@@ -41,6 +42,7 @@ class Boundary:
     wall_state: (g,) what the treatment advances; ``full`` (g,) filling of the evaluation point within the fluid.
     arrays: what compiled loops read of the ghosts; ``images`` of the fluid, for treatments with images.
     sides: the sides of walls, where a wall is thin; else None.
+    periods: in which the ghosts repeat themselves.
     """
 
     def __init__(
@@ -54,8 +56,9 @@ class Boundary:
         support: float,
         no_slip: bool,
         row_spacing: float | None = None,
+        periods: Periods | None = None,
     ) -> None:
-        groups = wall_groups(tuple(walls), fluid, spacing)
+        groups = wall_groups(tuple(walls), fluid, spacing, periods)
         self.groups = [group for _, group in groups]
         layers = int(np.ceil(support / spacing - 1e-9))
         sides = sides_of(self.groups, spacing, layers)
@@ -64,6 +67,7 @@ class Boundary:
         else:
             drawn = row_of(self.groups, row_spacing, spacing)
         self.dim = drawn.position.shape[1]
+        self.periods = Periods.none(self.dim) if periods is None else periods
         self.bodies = dict(bodies)
         names = list(self.bodies)
         self.wall, self.volume = drawn.wall, drawn.volume
@@ -91,9 +95,9 @@ class Boundary:
         self.depth = np.einsum("gi,gi->g", self.position - self.foot, self.normal)
         height = np.einsum("gi,gi->g", self.foot - self.points, self.normal)
         self.height = np.maximum(height, 0.1 * self.depth)
-        self.velocity = np.zeros_like(self.position)
-        self.acceleration = np.zeros_like(self.position)
-        self.driving = np.zeros_like(self.position)
+        self.velocity, self.acceleration, self.driving = (np.zeros_like(self.position) for _ in range(3))
+        for k, wall in enumerate(walls):
+            self.velocity[self.wall == k] = wall.surface_velocity or (0.0,) * self.dim
         self.statuses = np.full(self.count, int(Status.DRY), np.int64)
         self.wall_state, self.full = np.zeros(self.count), np.ones(self.count)
         self.images = Images.of(0, self.dim)
@@ -126,8 +130,9 @@ class Boundary:
 
     @property
     def speed(self) -> float:
-        """Largest speed of a wall, m/s."""
-        return float(np.sqrt(np.square(self.velocity).sum(axis=1).max(initial=0.0))) if self.bodies else 0.0
+        """Largest speed with which a ghost moves, m/s."""
+        moving = self.velocity[self.body >= 0]
+        return float(np.sqrt(np.square(moving).sum(axis=1).max(initial=0.0))) if self.bodies else 0.0
 
     def move(
         self,
@@ -161,7 +166,8 @@ class Boundary:
         self.driving += driving_force
         if gradient is not None:
             self.driving += density * self.foot @ gradient.T
-        rows[:, : self.dim] = self.position
+        self.driving[:, self.periods.repeats] = 0.0  # no pressure grows along a direction that repeats itself
+        rows[:, : self.dim] = self.periods.wrapped(self.position)
 
     def references(self, motions: Sequence[Motion]) -> Array:
         """Return the points (walls, dim) to which moments refer: the centre of the wall's body, or the origin, m."""

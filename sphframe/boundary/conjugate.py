@@ -32,8 +32,8 @@ import math
 
 import numba
 
-from sphframe.compiled import squared_distance
-from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, SUPPORT
+from sphframe.compiled import local_array, nearest
+from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, PERIODIC, SUPPORT
 
 CANCELLED = 0.1
 """|a| over the sum of |V_j grad W| below which there is no correction; near one plane face it is at least dx/(2 R)"""
@@ -46,20 +46,26 @@ def make_conjugate(  # type: ignore[no-untyped-def]
     limit = parameters.support * parameters.support
     per_h2 = SUPPORT * SUPPORT / limit
     for g in numba.prange(counts.shape[0]):
+        offset = local_array(DIM)
         row = fluid_count + g
         ax = ay = az = 0.0
         power = 0.0
         total = 0.0
         for k in range(counts[g]):
             j = lists[g, k]
-            r2 = squared_distance(rows, j, rows, row, DIM)
+            r2 = 0.0
+            for d in range(DIM):
+                offset[d] = rows[j, d] - rows[row, d]
+                if PERIODIC:
+                    offset[d] = nearest(offset[d], parameters, d)
+                r2 += offset[d] ** 2
             if r2 < limit:
                 weight = -GRADIENT(r2 * per_h2) * rows[j, COLUMNS.volume]
                 total += weight * math.sqrt(r2)
                 for d in range(DIM):
-                    side = rows[j, d] - rows[row, d]
+                    side = offset[d]
                     for e in range(DIM):
-                        side -= reflections[g, d, e] * (rows[j, e] - rows[row, e])
+                        side -= reflections[g, d, e] * offset[e]
                     side *= 0.5 * weight
                     power += side * (rows[j, COLUMNS.u + d] + rows[row, COLUMNS.u + d] - 2.0 * wall_velocities[g, d])
                     if d == 0:

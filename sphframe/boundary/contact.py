@@ -23,8 +23,8 @@ import math
 import numba
 import numpy as np
 
-from sphframe.compiled import LANES, local_array, squared_distance
-from sphframe.compiled.stand_ins import MASKED
+from sphframe.compiled import LANES, local_array, nearest, squared_distance
+from sphframe.compiled.stand_ins import MASKED, PERIODIC
 from sphframe.neighbours.sight import WHOLE
 
 HALF = WHOLE // 2
@@ -42,56 +42,66 @@ _FIRST_LAYER = 0.625
 
 
 @numba.njit(inline="always")
-def _behind(rows, i, foot, normal, g, dim):  # type: ignore[no-untyped-def]
+def _behind(rows, i, foot, normal, g, dim, periodic, parameters):  # type: ignore[no-untyped-def]
     """Return how far row ``i`` lies behind the plane of the wall at the foot of ghost ``g``."""
     depth = 0.0
     for d in range(dim):
-        depth += (rows[i, d] - foot[g, d]) * normal[g, d]
+        offset = rows[i, d] - foot[g, d]
+        if periodic:
+            offset = nearest(offset, parameters, d)
+        depth += offset * normal[g, d]
     return depth
 
 
 @numba.njit(inline="always")
-def _stands_for_wall(rows, i, ghost, foot, g, near, spacing, dim):  # type: ignore[no-untyped-def]
-    """Whether row ``ghost``, with wall point ``foot[g]``, is of the first layer and within ``near`` of row ``i``."""
-    if squared_distance(rows, ghost, rows, i, dim) > near * near:
+def _stands_for_wall(rows, i, ghost, foot, g, near, dim, periodic, parameters):  # type: ignore[no-untyped-def]
+    """Whether row ``ghost``, with wall point ``foot[g]``, is of the first layer and within ``near`` dx of row ``i``."""
+    spacing = parameters.spacing
+    if squared_distance(rows, ghost, rows, i, dim, periodic, parameters) > (near * spacing) ** 2:
         return False
-    return squared_distance(rows, ghost, foot, g, dim) < (_FIRST_LAYER * spacing) ** 2
+    return squared_distance(rows, ghost, foot, g, dim, periodic, parameters) < (_FIRST_LAYER * spacing) ** 2
 
 
 @numba.njit(inline="always")
-def _convex(foot, normal, g, other, least, dim):  # type: ignore[no-untyped-def]
+def _convex(foot, normal, g, other, least, dim, periodic, parameters):  # type: ignore[no-untyped-def]
     """Whether the feet of two ghosts lie on a convex part of a solid: each is behind the plane of the other."""
     behind_one = 0.0
     behind_other = 0.0
     for d in range(dim):
-        behind_one += (foot[other, d] - foot[g, d]) * normal[g, d]
-        behind_other += (foot[g, d] - foot[other, d]) * normal[other, d]
+        offset = foot[other, d] - foot[g, d]
+        if periodic:
+            offset = nearest(offset, parameters, d)
+        behind_one += offset * normal[g, d]
+        behind_other -= offset * normal[other, d]
     return behind_one > least and behind_other > least
 
 
 @numba.njit(error_model="numpy")
 def _put_back_one(  # type: ignore[no-untyped-def]
-    rows, i, ghosts, fluid_count, columns, spacing, foot, normal, wall_velocity, inside
+    rows, i, ghosts, fluid_count, columns, foot, normal, wall_velocity, inside, periodic, parameters
 ):
     """Put row ``i`` back if it is behind the wall of any of the ``ghosts`` (rows) near it; return 1 if it was, or 0.
 
     It is put at the distance ``inside`` from the wall, m.
     """
+    spacing = parameters.spacing
     least = 1e-12 * spacing
     touched = 0
     for ghost in ghosts:
         g = ghost - fluid_count
-        if not _stands_for_wall(rows, i, ghost, foot, g, _NEAR * spacing, spacing, columns.dim):
+        if not _stands_for_wall(rows, i, ghost, foot, g, _NEAR, columns.dim, periodic, parameters):
             continue
-        depth = _behind(rows, i, foot, normal, g, columns.dim)
+        depth = _behind(rows, i, foot, normal, g, columns.dim, periodic, parameters)
         if depth < least or depth > 0.5 * spacing:  # a step is much shorter: that deep, it is another wall
             continue
         for neighbour in ghosts:
             other = neighbour - fluid_count
-            if not _stands_for_wall(rows, i, neighbour, foot, other, _BESIDE * spacing, spacing, columns.dim):
+            if not _stands_for_wall(rows, i, neighbour, foot, other, _BESIDE, columns.dim, periodic, parameters):
                 continue
-            behind_other = _behind(rows, i, foot, normal, other, columns.dim)
-            if behind_other < depth and _convex(foot, normal, g, other, 1e-6 * spacing, columns.dim):
+            behind_other = _behind(rows, i, foot, normal, other, columns.dim, periodic, parameters)
+            if behind_other < depth and _convex(
+                foot, normal, g, other, 1e-6 * spacing, columns.dim, periodic, parameters
+            ):
                 depth = behind_other
                 g = other
         if depth < least:
@@ -108,7 +118,7 @@ def _put_back_one(  # type: ignore[no-untyped-def]
 
 @numba.njit(error_model="numpy")
 def _ghosts_beside(  # type: ignore[no-untyped-def]
-    rows, i, ghosts, shares, passable, fluid_count, columns, spacing, foot, normal
+    rows, i, ghosts, shares, passable, fluid_count, columns, foot, normal, periodic, parameters
 ):
     """Return those of the ``ghosts`` (rows) beside whose wall points row ``i`` lies, and which it sees."""
     kept = np.empty(ghosts.shape[0], ghosts.dtype)
@@ -116,16 +126,16 @@ def _ghosts_beside(  # type: ignore[no-untyped-def]
     for k in range(ghosts.shape[0]):
         g = ghosts[k] - fluid_count
         if shares[k] >= HALF and not passable[g]:
-            depth = _behind(rows, i, foot, normal, g, columns.dim)
-            along2 = squared_distance(rows, i, foot, g, columns.dim) - depth * depth
-            if along2 < (_ALONG * spacing) ** 2:
+            depth = _behind(rows, i, foot, normal, g, columns.dim, periodic, parameters)
+            along2 = squared_distance(rows, i, foot, g, columns.dim, periodic, parameters) - depth * depth
+            if along2 < (_ALONG * parameters.spacing) ** 2:
                 kept[count] = ghosts[k]
                 count += 1
     return kept[:count]
 
 
 def put_back(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, fluid_counts, ghost_counts, shares, passable, columns, spacing, foot, normal,
+    rows, fluid_count, lists, fluid_counts, ghost_counts, shares, passable, columns, parameters, foot, normal,
     wall_velocity,
 ):  # fmt: skip
     """Put the particles behind a wall back on its surface, in ``rows``; return their number.
@@ -136,6 +146,7 @@ def put_back(  # type: ignore[no-untyped-def]
     ``passable`` (g,) are ghosts beyond the end of a thin wall.
     """
     contacts = 0
+    spacing = parameters.spacing
     near = (_NEAR * spacing) ** 2
     first_layer = (_FIRST_LAYER * spacing) ** 2
     for c in numba.prange(fluid_counts.shape[0]):
@@ -150,9 +161,10 @@ def put_back(  # type: ignore[no-untyped-def]
         end = begin + ghost_counts[c]
         for k in range(begin, end):
             j = lists[c, k]
-            if squared_distance(rows, j, foot, j - fluid_count, columns.dim) < first_layer:
+            if squared_distance(rows, j, foot, j - fluid_count, columns.dim, PERIODIC, parameters) < first_layer:
                 for a in range(present):
-                    closest[a] = min(closest[a], squared_distance(rows, j, rows, first + a, columns.dim))
+                    distance2 = squared_distance(rows, j, rows, first + a, columns.dim, PERIODIC, parameters)
+                    closest[a] = min(closest[a], distance2)
         for a in range(present):
             if closest[a] < near:
                 i = first + a
@@ -161,9 +173,19 @@ def put_back(  # type: ignore[no-untyped-def]
                 if MASKED:
                     inside = _INSIDE * spacing
                     ghosts = _ghosts_beside(
-                        rows, i, ghosts, shares[c, begin:end, a], passable, fluid_count, columns, spacing, foot, normal
+                        rows,
+                        i,
+                        ghosts,
+                        shares[c, begin:end, a],
+                        passable,
+                        fluid_count,
+                        columns,
+                        foot,
+                        normal,
+                        PERIODIC,
+                        parameters,
                     )
                 contacts += _put_back_one(
-                    rows, i, ghosts, fluid_count, columns, spacing, foot, normal, wall_velocity, inside
+                    rows, i, ghosts, fluid_count, columns, foot, normal, wall_velocity, inside, PERIODIC, parameters
                 )
     return contacts

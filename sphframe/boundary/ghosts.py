@@ -26,8 +26,8 @@ from numpy.typing import NDArray
 
 from sphframe.arrays import Array
 from sphframe.boundary.wall_arrays import wall_point
-from sphframe.compiled import local_array
-from sphframe.compiled.stand_ins import ASSIGN, COLUMNS, DENSITY, DIM, FALLBACK, SUPPORT, VALUE, WEIGHTS
+from sphframe.compiled import local_array, nearest
+from sphframe.compiled.stand_ins import ASSIGN, COLUMNS, DENSITY, DIM, FALLBACK, PERIODIC, SUPPORT, VALUE, WEIGHTS
 from sphframe.interfaces import Interpolated
 from sphframe.interfaces.traits import DRY, OK
 
@@ -114,9 +114,14 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                         j = lists[g, k]
                         dx = rows[j, 0] - px
                         dy = rows[j, 1] - py
+                        if PERIODIC:
+                            dx = nearest(dx, parameters, 0)
+                            dy = nearest(dy, parameters, 1)
                         r2 = dx * dx + dy * dy
                         if DIM == 3:
                             dz = rows[j, 2] - pz
+                            if PERIODIC:
+                                dz = nearest(dz, parameters, 2)
                             r2 += dz * dz
                         offsets[n, 0] = dx
                         offsets[n, 1] = dy

@@ -10,8 +10,8 @@ from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.ghosts import CHUNKS
 from sphframe.boundary.wall_arrays import wall_point
-from sphframe.compiled import specialise
-from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, RATE, SUPPORT
+from sphframe.compiled import nearest, specialise
+from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, PERIODIC, RATE, SUPPORT
 from sphframe.interfaces import Neighbours, RateFunction
 from sphframe.neighbours import NeighbourLists
 from sphframe.physics import LoopParameters
@@ -85,6 +85,8 @@ def wall_rates(  # type: ignore[no-untyped-def]
                 r2 = 0.0
                 for d in range(DIM):
                     offsets[n, d] = rows[j, d] - points[g, d]
+                    if PERIODIC:
+                        offsets[n, d] = nearest(offsets[n, d], parameters, d)
                     velocities[n, d] = rows[j, COLUMNS.u + d]
                     r2 += offsets[n, d] * offsets[n, d]
                 distances[n] = math.sqrt(r2)

@@ -5,6 +5,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
+import numpy as np
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, field_validator, model_validator
 
 from sphframe.arrays import Array
@@ -73,6 +74,9 @@ class Case(BaseModel, ABC):
         le=3.0,
     )
     reference_density: float = quantity(1000.0, "kg m-3", "density of the fluid at zero pressure", gt=0)
+    periodic: tuple[Literal["x", "y", "z"], ...] = quantity(
+        (), "1", "directions in which the domain repeats itself; the domain's extent is the period"
+    )
     gravity: Gravity = quantity(9.81, "m s-2", "acceleration of gravity, downwards along the last axis, or a vector")
     acceleration: Component = quantity(
         Component(name="uniform"), "m s-2", "further body force, from the start on: a vector, or a body force by name"
@@ -160,8 +164,15 @@ class Case(BaseModel, ABC):
     @property
     def upward(self) -> Array:
         """The unit vector (dim,) against gravity; along the last axis without gravity."""
-        g = self.weight
-        return self.gravity_vector / -g if g > 0.0 else gravity_vector(-1.0, self.dimension)
+        pressing = self.pressing_gravity
+        g = float(np.linalg.norm(pressing))
+        return pressing / -g if g > 0.0 else gravity_vector(-1.0, self.dimension)
+
+    @property
+    def pressing_gravity(self) -> Array:
+        """The part of gravity (dim,) across the directions that repeat themselves, m/s^2, which pressure balances."""
+        repeats = [axis in self.periodic for axis in "xyz"[: self.dimension]]
+        return np.where(repeats, 0.0, self.gravity_vector)
 
     def reference_sound_speed(self, depth: float) -> float:
         """Return c0 in m/s: ``sound_speed``, or 20 sqrt(g H) for a still water ``depth`` H in m where it is None."""

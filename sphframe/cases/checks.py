@@ -14,6 +14,7 @@ from sphframe.cases.placement import placed_force, placed_scene
 from sphframe.cases.scene import Scene
 from sphframe.errors import InputError, SphframeError
 from sphframe.interfaces import Integrator
+from sphframe.particles import Periods
 from sphframe.registry import COMPONENT_KINDS
 
 _MOST_PARTICLES = 50_000_000
@@ -22,6 +23,8 @@ _MOST_SAMPLES = 20_000_000
 _MOST_STEPS = 1e10
 _MOST_CELLS = 1e8
 _MOST_WALL_POINTS = 1e8
+_SHORTEST_PERIOD = 2.3
+"""shortest period over the support of the kernel, with the skin of the neighbour lists"""
 
 
 class CaseWarning(UserWarning):
@@ -75,8 +78,12 @@ def _component_errors(case: Case) -> list[SphframeError]:
 
 def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
     dim, spacing = case.dimension, case.particle_spacing
-    if not scene.walls or not scene.fluid:
-        yield "the case has no wall, or no fluid; it needs at least one of each"
+    if not scene.fluid or not (scene.walls or case.periodic):
+        yield "the case has no wall, or no fluid; it needs at least one of each (no wall if it is periodic)"
+        return
+    foreign = [axis for axis in case.periodic if axis not in "xyz"[:dim]]
+    if foreign or len(set(case.periodic)) < len(case.periodic):
+        yield f"periodic = {list(case.periodic)}: give each of {list('xyz'[:dim])} at most once"
         return
     shape_problems = [*_dimension_problems(dim, scene), *_name_problems(scene)]
     yield from shape_problems
@@ -105,7 +112,15 @@ def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
     if size_problems:
         return
     support = case.kernel.create("kernels").support * case.smoothing_length_ratio * spacing
-    yield from fluid_problems(scene, spacing, support)
+    periods = Periods.of(case.periodic, scene.domain)
+    for axis, length in zip("xyz", periods.length, strict=False):
+        if 0.0 < length < _SHORTEST_PERIOD * support:
+            yield (
+                f"the period {length:g} m along {axis} is too short: a particle would see another one twice; make the"
+                f" domain {_SHORTEST_PERIOD * support:.3g} m long or longer, or choose a smaller particle_spacing"
+            )
+            return
+    yield from fluid_problems(scene, spacing, support, periods)
     lower, upper = np.array(scene.domain)
     for probe in scene.probes:
         if np.any(np.array(probe.position) < lower) or np.any(np.array(probe.position) > upper):
@@ -136,6 +151,7 @@ def _dimension_problems(dim: int, scene: Scene) -> Iterator[str]:
 
     for wall in scene.walls:
         yield from expected(f"wall {wall.name!r}", wall.dimension, dim)
+        yield from expected(f"surface_velocity of wall {wall.name!r}", len(wall.surface_velocity or (0.0,) * dim), dim)
         yield from expected(f"reference_point of wall {wall.name!r}", len(wall.reference_point or (0.0,) * dim), dim)
     for index, region in enumerate(scene.fluid):
         yield from expected(f"fluid[{index}]", region.dimension, dim)

@@ -38,7 +38,7 @@ class Custom(Case):
 
     title: ClassVar[str] = "walls, fluid, bodies, probes and gauges of your own"
 
-    walls: tuple[Wall, ...] = quantity(..., "m", "walls, polygons or boxes", min_length=1)
+    walls: tuple[Wall, ...] = quantity(..., "m", "walls of any shape; none only in a periodic case")
     fluid: tuple[Region, ...] = quantity(..., "m", "regions full of fluid, any closed shapes", min_length=1)
     bodies: dict[str, Component] = quantity({}, "1", "bodies that carry walls, by the name that the walls refer to")
     probes: tuple[Probe, ...] = quantity((), "m", "pressure sensors on walls")
@@ -48,7 +48,10 @@ class Custom(Case):
         None, "m", "still water depth H, the scale of pressure; by default the fluid's vertical extent", gt=0
     )
     domain: tuple[tuple[float, ...], tuple[float, ...]] | None = quantity(
-        None, "m", "corners of the box that no particle may leave; by default around all walls, twice as high"
+        None,
+        "m",
+        "corners of the box that no particle may leave; by default around all walls, twice as high; in periodic"
+        " directions its extent is the period, by default that of the fluid",
     )
     frame_interval: float = with_default(
         Case, "frame_interval", Derived("until / 100", lambda case: case.until / 100.0)
@@ -88,4 +91,6 @@ class Custom(Case):
         else:
             high[-1] += extent[-1]
         margin = self.particle_spacing
-        return tuple((low - margin).tolist()), tuple((high + margin).tolist())
+        repeats = [axis in self.periodic for axis in "xyz"[: len(low)]]
+        low, high = np.where(repeats, lower, low - margin), np.where(repeats, upper, high + margin)
+        return tuple(low.tolist()), tuple(high.tolist())

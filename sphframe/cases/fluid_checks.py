@@ -10,8 +10,9 @@ import shapely
 from sphframe.arrays import Array
 from sphframe.cases.scene import Scene
 from sphframe.errors import InputError
-from sphframe.geometry import PlaneWalls, Region, WallGroup, common_part, fill, wall_groups, wall_lines
+from sphframe.geometry import PlaneWalls, Region, WallGroup, common_part, fill, panels_of, wall_groups, wall_lines
 from sphframe.geometry.shapes import CHORD
+from sphframe.particles import Periods
 
 _THIN = 0.01
 """thickness over spacing below which an overlap or a gap is round-off"""
@@ -19,10 +20,10 @@ _NARROW = 0.75
 """width over spacing up to which a gap is taken for a mistake; a wider one is empty space"""
 
 
-def fluid_problems(scene: Scene, spacing: float, support: float) -> Iterator[str]:
+def fluid_problems(scene: Scene, spacing: float, support: float, periods: Periods) -> Iterator[str]:
     """Yield what is wrong with walls and regions of fluid, for particles one ``spacing`` apart and a ``support``, m."""
     try:
-        groups = [group for _, group in wall_groups(scene.walls, scene.fluid, spacing)]
+        groups = [group for _, group in wall_groups(scene.walls, scene.fluid, spacing, periods)]
     except InputError as error:
         yield str(error)
         return
@@ -41,15 +42,36 @@ def fluid_problems(scene: Scene, spacing: float, support: float) -> Iterator[str
                     f"probe {probe.name!r} at {probe.position} is on a wall without thickness; move it a little, by"
                     f" {0.01 * spacing:.3g} m or more, to the side on which it measures"
                 )
+    yield from _surface_problems(scene, groups, spacing)
     for index, region in enumerate(scene.fluid):
-        yield from _region_problems(scene, index, region, groups, spacing)
+        yield from _region_problems(scene, index, region, groups, spacing, periods)
         if scene.initial_pressure is not None and (region.level is not None or region.pressure is not None):
             yield f"fluid[{index}] has a level or pressure, but the case gives its own initial pressure; leave it out"
     yield from _overlaps(scene.fluid, spacing)
 
 
+def _surface_problems(scene: Scene, groups: Sequence[WallGroup], spacing: float) -> Iterator[str]:
+    panels = panels_of(groups, spacing)
+    for k, wall in enumerate(scene.walls):
+        if wall.surface_velocity is None:
+            continue
+        if wall.body is not None:
+            yield (
+                f"wall {wall.name!r} has a surface_velocity, and is carried by body {wall.body!r}: leave one out; a"
+                " surface_velocity is that of a wall which stays where it is"
+            )
+        velocity, area = np.array(wall.surface_velocity), panels.area[panels.wall == k]
+        across = np.abs(area @ velocity) > 1e-6 * np.linalg.norm(area, axis=1) * np.linalg.norm(velocity)
+        if np.any(across):
+            x = ", ".join(f"{c:.6g}" for c in panels.centre[panels.wall == k][across][0])
+            yield (
+                f"surface_velocity = {wall.surface_velocity} of wall {wall.name!r} is not along its surface at ({x});"
+                " give a velocity along a straight wall, or turn a curved one with a body"
+            )
+
+
 def _region_problems(
-    scene: Scene, index: int, region: Region, groups: Sequence[WallGroup], spacing: float
+    scene: Scene, index: int, region: Region, groups: Sequence[WallGroup], spacing: float, periods: Periods
 ) -> Iterator[str]:
     position = fill(region, spacing).position
     if len(position) == 0:
@@ -62,7 +84,7 @@ def _region_problems(
                 f"{behind.sum()} of {len(position)} particles of fluid[{index}] lie behind a wall, the first at"
                 f" {tuple(position[behind][0].round(6).tolist())}; draw the fluid within the walls"
             )
-    rim = max(float(wall.bounds()[1][-1]) for wall in scene.walls)
+    rim = max((float(wall.bounds()[1][-1]) for wall in scene.walls if not periods.repeats[-1]), default=np.inf)
     top = float(position[:, -1].max())
     if top > rim:
         yield f"fluid[{index}] reaches {top:g} m, above the rim of the walls at {rim:g} m; raise the walls"

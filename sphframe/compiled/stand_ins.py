@@ -42,6 +42,8 @@ PRESSURE: StateFunction = _not_bound
 """the equation of state, p(rho, rho0, c0)"""
 DENSITY: StateFunction = _not_bound
 """its inverse, rho(p, rho0, c0)"""
+PERIODIC = False
+"""whether directions repeat themselves, so that distances are those of the nearest copies"""
 MASKED = False
 """whether thin walls hide neighbours, wholly or in part (:mod:`sphframe.neighbours.sight`)"""
 WEIGHTS: WeightsFunction = _not_bound

@@ -7,7 +7,7 @@ wet on both sides has an edge on each of them.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -16,6 +16,7 @@ from shapely import LineString, Point, Polygon
 
 from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.errors import InputError
+from sphframe.particles import Periods
 
 OPEN = -1
 """index of the wall of an edge where there is no wall"""
@@ -35,6 +36,7 @@ class Domain:
     region: the domain, with open edges continued far beyond the walls; it contains lines that are wet on both sides.
     start, end: (m, 2) ends of the edges; ``wall`` (m,) index of their walls, ``OPEN`` where there is none.
     before, after: (m,) edges that share the start and the end of each edge.
+    periods: of the domain, which contains the copies around the box that is simulated; None if there are none.
     """
 
     region: shapely.Geometry
@@ -43,6 +45,7 @@ class Domain:
     wall: IntArray
     before: IntArray
     after: IntArray
+    periods: Periods | None = None
 
     @cached_property
     def _tree(self) -> shapely.STRtree:
@@ -63,6 +66,16 @@ class Domain:
     def sharp(self) -> BoolArray:
         """Whether the boundary has a corner between two edges of walls at the start (m,) of each edge."""
         return np.asarray((np.abs(self.turn) > SHARP) & (self.wall != OPEN) & (self.wall[self.before] != OPEN))
+
+    @cached_property
+    def seam(self) -> BoolArray:
+        """Whether each edge (m,) of a wall starts where one period ends and the next one begins."""
+        if not self.periods:
+            return np.zeros(len(self.wall), dtype=np.bool_)
+        length = np.where(self.periods.repeats, self.periods.length, np.inf)
+        place = (self.start - self.periods.lower) / length
+        on_border = np.any((np.abs(place - np.rint(place)) < 1e-9) & self.periods.repeats, axis=1)
+        return np.asarray(on_border & (self.wall != OPEN) & (self.wall[self.before] != OPEN) & ~self.sharp)
 
     @cached_property
     def two_sided(self) -> BoolArray:
@@ -104,6 +117,7 @@ def fluid_domain(
     *,
     one_sided: Sequence[int] = (),
     two_sided: Sequence[int] = (),
+    periods: Periods | None = None,
 ) -> Domain:
     """Return the domain within ``walls`` that the ``fluid`` can reach.
 
@@ -114,6 +128,7 @@ def fluid_domain(
     spacing: particle spacing, m. Ends that are closer than a millionth of it are joined.
     one_sided: indices of walls that are wet on one side only, although the other side can be reached.
     two_sided: indices of walls that may be wet on both sides.
+    periods: of walls and fluid, which are given with their copies around the box that is simulated.
 
     Raises
     ------
@@ -127,7 +142,14 @@ def fluid_domain(
     margin = 100.0 * spacing + 0.1 * float(np.max(highest - lowest))
     frame = shapely.box(*(lowest - margin), *(highest + margin))
     single = shapely.union_all(np.array(lines)[np.isin(owners, one_sided)])
-    rims, bars = _open_edges(net, single, frame, 8.0 * spacing)
+    inner = frame
+    if periods:  # walls go straight on where more copies would follow
+        end = np.where(periods.repeats, periods.length - _SAME * spacing, np.inf)
+        lower, upper = lowest - margin, highest + margin
+        inner = shapely.box(
+            *np.maximum(periods.lower - end, lower), *np.minimum(periods.lower + periods.length + end, upper)
+        )
+    rims, bars = _open_edges(net, single, frame, inner, 8.0 * spacing)
     edges = shapely.unary_union([net, frame.boundary, *rims, *bars])
     faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(edges)))
     core = shapely.union_all(shapely.buffer(shapely.get_parts(fluid), -0.25 * spacing))
@@ -135,7 +157,7 @@ def fluid_domain(
     wet = shapely.area(shapely.intersection(faces, core)) > 1e-6 * min(core.area, spacing**2)
     region = shapely.union_all(faces[_reached(faces, wet, shapely.union_all(rims), frame)])
     sides = _both_sides(edges, net, region, _SAME * spacing)
-    domain = domain_of(region, lines, owners, _SAME * spacing, sides)
+    domain = replace(domain_of(region, lines, owners, _SAME * spacing, sides), periods=periods)
     _check_two_sided(domain, list(walls), core, two_sided, spacing)
     return domain
 
@@ -184,12 +206,13 @@ def _joined(lines: list[LineString], closest: float) -> list[LineString]:
 
 
 def _open_edges(
-    net: shapely.Geometry, single: shapely.Geometry, frame: Polygon, onward: float
+    net: shapely.Geometry, single: shapely.Geometry, frame: Polygon, within: Polygon, onward: float
 ) -> tuple[list[LineString], list[LineString]]:
     """Return open edges from the ends of walls that meet nothing: those that the fluid may cross, and those that not.
 
     An edge continues its wall for the length ``onward`` and then goes upwards, or upwards at once where something is in
-    the way. It is left out where there is still something in the way. From a wall in ``single`` it goes straight on.
+    the way. It is left out where there is still something in the way. From a wall in ``single``, and outside of
+    ``within``, it goes straight on.
     """
     ends: dict[tuple[float, ...], list[Array]] = {}
     for line in shapely.get_parts(net):
@@ -204,7 +227,8 @@ def _open_edges(
         here = np.array(point)
         along = directions[0] / np.hypot(*directions[0])
         further = here + onward * along
-        if not single.is_empty and shapely.distance(Point(point), single) == 0.0:
+        on_single = not single.is_empty and shapely.distance(Point(point), single) == 0.0
+        if on_single or not within.contains(Point(point)):
             bars.append(shapely.intersection(LineString([here, here + size * along]), frame))
             continue
         for path in ([here, further, (further[0], top)], [here, (here[0], top)]):

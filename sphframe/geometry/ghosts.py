@@ -11,13 +11,16 @@ Source: S. Marrone et al. (2011), doi:10.1016/j.cma.2010.12.016; X. Huang et al.
 section 2.2.
 """
 
+import itertools
 from abc import ABC, abstractmethod
-from typing import NamedTuple, final
+from typing import Any, NamedTuple, final
 
 import numpy as np
 import shapely
+from shapely import affinity
 
 from sphframe.arrays import Array, BoolArray, IntArray
+from sphframe.errors import InputError
 from sphframe.geometry.charts import (
     BEYOND,
     THICK,
@@ -33,7 +36,10 @@ from sphframe.geometry.domain import OPEN, Domain, fluid_domain
 from sphframe.geometry.layers import layer_points
 from sphframe.geometry.shapes import CHORD
 from sphframe.geometry.walls import Wall
+from sphframe.particles import Periods
 
+_BORDER = 1e-6
+"""share of a spacing by which the border between two periods is moved off the lattice"""
 NONE = -1
 """index of a wall or body that there is not"""
 
@@ -133,25 +139,71 @@ class WallGroup(ABC):
 
 
 @final
+class NoWalls(WallGroup):
+    """Space without walls, in ``dim`` dimensions."""
+
+    def __init__(self, dim: int) -> None:
+        self._points, self._none = np.empty((0, dim)), np.empty(0, np.int64)
+
+    def ghosts(self, spacing: float, layers: int) -> GhostPoints:
+        """Return no ghosts."""
+        points, none = self._points, self._none
+        reflection = np.empty((0, points.shape[1], points.shape[1]))
+        return GhostPoints(points, points, points, points, reflection, np.empty(0), none, none, points, points)
+
+    def panels(self, spacing: float) -> Panels:
+        """Return no panels."""
+        return Panels(self._points, self._points, self._none)
+
+    def behind(self, points: Array) -> BoolArray:
+        """Return that none of ``points`` (n, dim) lies behind a wall."""
+        return np.zeros(len(points), dtype=np.bool_)
+
+    def ends(self) -> list[End]:
+        """Return nothing."""
+        return []
+
+    def thin_place(self, least: float) -> None:
+        """Return None."""
+
+
+@final
 class PlaneWalls(WallGroup):
     """Walls of two dimensions: lines that bound a :class:`~sphframe.geometry.domain.Domain`.
 
     Parameters
     ----------
-    walls: by their indices; ``fluid`` at the start, m; ``spacing`` of the particles, m.
+    walls: by their indices; ``fluid`` at the start, m; ``spacing`` of the particles, m; ``periods`` of both.
 
     Raises
     ------
     InputError: when the side of the fluid is ambiguous.
     """
 
-    def __init__(self, walls: dict[int, Wall], fluid: shapely.Geometry, spacing: float) -> None:
+    def __init__(
+        self, walls: dict[int, Wall], fluid: shapely.Geometry, spacing: float, periods: Periods | None = None
+    ) -> None:
         self._indices = np.array([*walls, NONE])  # the last stands for OPEN
         self._spacing = spacing
         single = [k for k, wall in enumerate(walls.values()) if wall.one_sided]
         lines = [k for k, wall in enumerate(walls.values()) if wall.is_line and not wall.one_sided]
         outlines = {wall.name: wall.outline(CHORD * spacing) for wall in walls.values()}
-        self.domain = fluid_domain(outlines, fluid, spacing, one_sided=single, two_sided=lines)
+        self._periods = Periods.none(2) if periods is None else periods
+        shifts = self._periods.shifts()
+        for wall in walls.values():
+            extent = np.subtract(*wall.bounds()[::-1])
+            for axis in np.flatnonzero(self._periods.repeats & (extent > self._periods.length + 1e-9 * spacing)):
+                raise InputError(
+                    f"wall {wall.name!r} extends over {extent[axis]:g} m along {'xy'[axis]}, more than the period of"
+                    f" {self._periods.length[axis]:g} m: draw what repeats itself once"
+                )
+        if self._periods:  # the walls and the fluid of all boxes around the one that is simulated
+            outlines = {
+                name: [piece + shift for piece in _at_home(lines, self._periods) for shift in shifts]
+                for name, lines in outlines.items()
+            }
+            fluid = shapely.geometrycollections([affinity.translate(fluid, *shift) for shift in shifts])
+        self.domain = fluid_domain(outlines, fluid, spacing, one_sided=single, two_sided=lines, periods=self._periods)
         self._cut: dict[int, tuple[BoolArray, list[Chart]]] = {}
         self._filled: dict[tuple[float, int], tuple[GhostPoints, IntArray, IntArray]] = {}
 
@@ -162,6 +214,13 @@ class PlaneWalls(WallGroup):
             thin = np.zeros(len(domain.wall), dtype=np.bool_)
             if np.any(domain.two_sided) or thin_solid(domain.region, reach) is not None:
                 thin = thin_edges(domain, reach)
+            if self._periods and np.any(thin):
+                x, y = self.domain.start[thin][0]
+                raise InputError(
+                    f"the wall at ({x:.6g}, {y:.6g}) is thinner than the kernel's support, which is not possible in a"
+                    " case with periodic directions: make it as thick as the support, or choose a smaller"
+                    " particle_spacing"
+                )
             self._cut[layers] = thin, charts_of(domain, thin, self._spacing, layers) if np.any(thin) else []
         return self._cut[layers]
 
@@ -191,7 +250,9 @@ class PlaneWalls(WallGroup):
         charts = self._charts(layers)[1]
         if not charts:
             ghosts, edge = self._ghosts_behind(self.domain, spacing, layers)
-            thick = np.zeros(len(edge), np.int64)
+            own: Any = self._periods.at_home(ghosts.position, _BORDER * spacing)
+            ghosts = GhostPoints(*(part[own] for part in ghosts))
+            thick = np.zeros(len(ghosts.wall), np.int64)
             return ghosts._replace(mirror=self._inside(ghosts.mirror, spacing)), thick, thick
         parts, numbers, kinds = [], [], []
         for number, chart in enumerate(charts):
@@ -263,7 +324,9 @@ class PlaneWalls(WallGroup):
         share = (np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count) + 0.5) / count[place]
         centre = domain.start[walled][place] + share[:, None] * edge[place]
         area = np.stack([edge[:, 1], -edge[:, 0]], axis=1)[place] / count[place, None]
-        return Panels(centre, area, self._indices[domain.wall[walled][place]])
+        panels = Panels(centre, area, self._indices[domain.wall[walled][place]])
+        own: Any = self._periods.at_home(centre, _BORDER * spacing)
+        return Panels(*(part[own] for part in panels))
 
     def thin_place(self, least: float) -> tuple[float, ...] | None:
         """Return a point, m, where a solid thinner than ``least`` (m) cannot hold fluid; None if there is none.
@@ -291,8 +354,25 @@ class PlaneWalls(WallGroup):
                 found.append(End(index, domain.start[k], -along[k], domain.normal[k]))
             if wall[domain.after[k]] == OPEN:
                 found.append(End(index, domain.end[k], along[k], domain.normal[k]))
-        return found
+        own = self._periods.at_home(np.array([end.point for end in found]).reshape(-1, 2), 0.0)
+        return [end for end, at_home in zip(found, own, strict=True) if at_home]
 
     def behind(self, points: Array) -> BoolArray:
         """Return whether each of ``points`` (n, 2), m, lies behind one of the walls, and not on it."""
-        return self.domain.behind(points)
+        return self.domain.behind(self._periods.wrapped(points))
+
+
+def _at_home(lines: list[Array], periods: Periods) -> list[Array]:
+    """Return the pieces of ``lines`` (k, 2), m, in the box that repeats itself, cut at its border."""
+    upper = periods.lower + periods.length
+    far = 1.0 + max(float(np.abs(line).max()) for line in lines) + float(np.abs([periods.lower, upper]).max())
+    box = shapely.box(*np.where(periods.repeats, periods.lower, -far), *np.where(periods.repeats, upper, far))
+    pieces = []
+    for line, shift in itertools.product(lines, periods.shifts()):
+        for part in shapely.get_parts(shapely.intersection(shapely.LineString(line + shift), box)):
+            points = shapely.get_coordinates(part)
+            for border in (periods.lower, upper):
+                points = np.where((np.abs(points - border) < 1e-12 * far) & periods.repeats, border, points)
+            if len(points) > 1:
+                pieces.append(points)
+    return pieces

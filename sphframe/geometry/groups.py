@@ -7,14 +7,18 @@ import numpy as np
 import shapely
 
 from sphframe.arrays import IntArray
+from sphframe.errors import InputError
 from sphframe.geometry.box_walls import BoxWalls
-from sphframe.geometry.ghosts import NONE, GhostPoints, Panels, PlaneWalls, Sides, WallGroup
+from sphframe.geometry.ghosts import NONE, GhostPoints, NoWalls, Panels, PlaneWalls, Sides, WallGroup
 from sphframe.geometry.shapes import CHORD, Shape
 from sphframe.geometry.solid_walls import SolidWalls
 from sphframe.geometry.walls import BoxWall, Wall
+from sphframe.particles import Periods
 
 
-def wall_groups(walls: tuple[Wall, ...], fluid: Sequence[Shape], spacing: float) -> list[tuple[str | None, WallGroup]]:
+def wall_groups(
+    walls: tuple[Wall, ...], fluid: Sequence[Shape], spacing: float, periods: Periods | None = None
+) -> list[tuple[str | None, WallGroup]]:
     """Return the groups of ``walls`` with the names of their bodies, None at rest.
 
     Parameters
@@ -22,19 +26,28 @@ def wall_groups(walls: tuple[Wall, ...], fluid: Sequence[Shape], spacing: float)
     walls: all walls of a scene.
     fluid: regions of the fluid at the start, which tell which sides of walls are wet.
     spacing: of the particles, m.
+    periods: in which walls and fluid repeat themselves.
 
     Raises
     ------
-    InputError: when the side of the fluid is ambiguous.
+    InputError: when the side of the fluid is ambiguous, or walls cannot repeat themselves.
     """
+    if not walls:
+        return [(None, NoWalls(fluid[0].dimension))]
     members = {
         body: {k: wall for k, wall in enumerate(walls) if wall.body == body}
         for body in dict.fromkeys(wall.body for wall in walls)
     }
     if walls[0].dimension == 3:
-        return [(body, _solid_group(own, fluid, spacing)) for body, own in members.items()]
+        groups = [(body, _solid_group(own, fluid, spacing)) for body, own in members.items()]
+        if periods and any(not isinstance(group, BoxWalls) for _, group in groups):
+            raise InputError(
+                "in three dimensions with periodic directions, walls can only be one box around the fluid, with open"
+                ' faces where it repeats itself: give shape = "box" and open_faces such as ["-y", "+y"]'
+            )
+        return groups
     whole = shapely.geometrycollections([region.geometry(CHORD * spacing) for region in fluid])
-    return [(body, PlaneWalls(own, whole, spacing)) for body, own in members.items()]
+    return [(body, PlaneWalls(own, whole, spacing, periods)) for body, own in members.items()]
 
 
 def _solid_group(walls: Mapping[int, Wall], fluid: Sequence[Shape], spacing: float) -> WallGroup:

@@ -81,16 +81,19 @@ def _along(ring: LineString, domain: Domain, distance: float, spacing: float) ->
 def _breaks(ring: LineString, domain: Domain, distance: float, spacing: float) -> tuple[Array, IntArray]:
     """Return where a ``ring`` is cut (k,), as lengths along it, and the kind of each place (k,).
 
-    It is cut at its corners, opposite the rims of walls, and on both sides of right angles of the domain, so that all
-    layers between them are divided alike.
+    It is cut at its corners, opposite the rims of walls, on both sides of right angles of the domain, and where a
+    period of it begins, so that all layers between them are divided alike.
     """
     wall, right = domain.wall != OPEN, domain.sharp & (np.abs(domain.turn - 0.5 * np.pi) < 1e-6)
     first, last = wall & ~wall[domain.before], wall & ~wall[domain.after]
+    seam = domain.seam
+    mitre = domain.normal[seam] + domain.normal[domain.before[seam]]
     opposite = [
         domain.start[first] + distance * domain.normal[first],
         domain.end[last] + distance * domain.normal[last],
         domain.start[right] + distance * domain.normal[right],
         domain.start[right] + distance * domain.normal[domain.before[right]],
+        domain.start[seam] + distance * mitre / (0.5 * np.square(mitre).sum(axis=1))[:, None],
     ]
     near = [points[shapely.distance(shapely.points(points), ring) < 1e-6 * spacing] for points in opposite]
     rims, cuts = (shapely.line_locate_point(ring, shapely.points(np.vstack(pair))) for pair in (near[:2], near[2:]))

@@ -45,6 +45,8 @@ class Drawn(BaseModel):
     """whether the side without fluid at the start stays dry"""
     reference_point: tuple[float, ...] | None = Field(default=None, min_length=2, max_length=3)
     """point to which the moment on the wall refers, as drawn, m; by default the centre of its body, or the origin"""
+    surface_velocity: tuple[float, ...] | None = Field(default=None, min_length=2, max_length=3)
+    """velocity along the surface of a wall that stays where it is, as of a belt, m/s; None for a surface at rest"""
 
     def bounds(self) -> tuple[Array, Array]:
         """Return the lower and the upper corner (dim,) of the box around the wall, m."""

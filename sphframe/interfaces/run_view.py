@@ -94,6 +94,9 @@ class RunView(Protocol):
     def masses(self) -> Array:
         """Return the mass of each particle (n,) in the original order, kg (2-D: per metre of width); NaN if removed."""
 
+    def turns(self) -> IntArray:
+        """Return by how many periods (n, dim) the particles have left the box, in their original order."""
+
     def ghost_fields(self) -> Fields:
         """Return copies of the ghost particles' fields as last filled."""
 

@@ -23,6 +23,7 @@ from sphframe.neighbours.approach import relative_displacement
 from sphframe.neighbours.cells import Grid, bounding_box, cell_number, grid_around, row_number, sort_by_cell
 from sphframe.neighbours.motion import LargestMotion, largest_motion, largest_wall_displacement
 from sphframe.neighbours.sight import Sight, keep_seen, share_lists
+from sphframe.particles import Periods
 
 _PARTS = 2
 """number of parts in which rows are sorted and measured in parallel"""
@@ -58,12 +59,18 @@ class NeighbourLists:
         cluster: int = 1,
         width: float | None = None,
         sight: Sight | None = None,
+        periods: Periods | None = None,
     ) -> None:
         self.sight = sight
+        self.periods = Periods.none(dim) if periods is None else periods
+        self._shifts = np.zeros((len(self.periods.shifts()), 3))
+        self._shifts[:, :dim] = self.periods.shifts()
         self.shares = np.zeros((1, 1, LANES), np.uint8)
         self.dim = dim
         self.support = support
         self.skin = skin
+        self._narrow = np.full(3, np.inf)
+        self._narrow[:dim][self.periods.repeats] = self.periods.length[self.periods.repeats] - 2.0 * self.radius
         self.cluster = cluster
         self.width = 0.5 * self.radius if width is None else width
         self.fluid_count = fluid_count
@@ -92,7 +99,15 @@ class NeighbourLists:
     def resized(self, fluid_count: int) -> "NeighbourLists":
         """Return lists of the same kind for another number of fluid particles, not yet built."""
         return NeighbourLists(
-            self.dim, fluid_count, self.ghost_count, self.support, self.skin, self.cluster, self.width, self.sight
+            self.dim,
+            fluid_count,
+            self.ghost_count,
+            self.support,
+            self.skin,
+            self.cluster,
+            self.width,
+            self.sight,
+            self.periods,
         )
 
     @property
@@ -101,8 +116,14 @@ class NeighbourLists:
         return self.support + self.skin
 
     def sort(self, rows: Array) -> IntArray:
-        """Make the grid around the fluid ``rows`` (n, width) and return the order in which the rows must be put."""
+        """Make the grid around the fluid ``rows`` (n, width) and return the order in which the rows must be put.
+
+        In periodic directions they must lie in the box that repeats itself, as ghosts in :meth:`build` must.
+        """
         bounding_box(rows, self.fluid_count, self.dim, self._lower, self._upper)
+        periods = self.periods
+        np.copyto(self._lower, periods.lower, where=periods.repeats)
+        np.copyto(self._upper, periods.lower + periods.length, where=periods.repeats)
         self._grid = grid_around(
             self._lower, self._upper, self.width, 1.1 * self.radius
         )  # includes all ghosts within reach
@@ -120,7 +141,8 @@ class NeighbourLists:
         while True:
             longest = _list_particles(
                 rows, n, self.cluster, self.dim, self.radius, grid, self._starts, _NO_ORDER,
-                self._ghost_starts, self._ghost_order, self.fluid, self.fluid_counts, self.ghost_counts,
+                self._ghost_starts, self._ghost_order, self._shifts, self._narrow,
+                self.fluid, self.fluid_counts, self.ghost_counts,
             )  # fmt: skip
             if longest < self.fluid.shape[1]:
                 break
@@ -162,6 +184,8 @@ class NeighbourLists:
             return False
         if 2.0 * (motion.displacement + ahead) <= self.skin:
             return True
+        if self.periods:
+            return False
         return self._relative_displacement(rows) + 2.0 * ahead <= self.skin
 
     def _relative_displacement(self, rows: Array) -> float:
@@ -209,8 +233,9 @@ class NeighbourLists:
         """List the fluid near ``points`` in ``lists``, or in a longer array where that is too short."""
         while True:
             longest = _list_points(
-                points, rows, self.dim, self.radius, self._grid, self._starts, _NO_ORDER, lists, counts
-            )
+                self.periods.wrapped(points), rows, self.dim, self.radius, self._grid, self._starts, _NO_ORDER,
+                self._shifts, lists, counts,
+            )  # fmt: skip
             if longest < lists.shape[1]:
                 if self.sight is not None:
                     keep_seen(points, rows, self.radius, lists, counts, of_ghosts, self.sight)
@@ -259,25 +284,28 @@ def _reach(radius, lower, upper, origin, cell, index):  # type: ignore[no-untype
 
 
 @numba.njit(error_model="numpy")
-def _near_any(rows, j, first, last, dim, limit):  # type: ignore[no-untyped-def]
-    """Whether row ``j`` lies within the search radius of any of the rows ``first`` .. ``last``."""
+def _near_any(rows, j, first, last, dim, limit, shift):  # type: ignore[no-untyped-def]
+    """Whether row ``j``, moved by ``shift``, lies within the search radius of any of the rows ``first`` .. ``last``."""
     for i in range(first, last):
         d2 = 0.0
         for k in range(dim):
-            d2 += (rows[j, k] - rows[i, k]) ** 2
+            d2 += (rows[j, k] - rows[i, k] + shift[k]) ** 2
         if d2 < limit:
             return True
     return False
 
 
 @numba.njit(error_model="numpy")
-def _select(rows, members, begin, end, first, last, dim, limit, alone):  # type: ignore[no-untyped-def]
-    """Keep of ``members[begin:end]`` what is near a member of the cluster, and not the particle itself if ``alone``."""
+def _select(rows, members, begin, end, first, last, dim, limit, shift, alone):  # type: ignore[no-untyped-def]
+    """Keep of ``members[begin:end]`` what is near a member of the cluster, and not the particle itself if ``alone``.
+
+    The members stand for their copies moved by ``shift`` (3,).
+    """
     kept = begin
     for k in range(begin, end):
         j = members[k]
         members[kept] = j
-        kept += 1 if not (alone and j == first) and _near_any(rows, j, first, last, dim, limit) else 0
+        kept += 1 if not (alone and j == first) and _near_any(rows, j, first, last, dim, limit, shift) else 0
     return kept
 
 
@@ -325,13 +353,56 @@ def _collect(rows, dim, box, radius, grid, starts, order, first, members, found)
     return found
 
 
+@numba.njit(error_model="numpy")
+def _without_repeats(members, begin, middle, end):  # type: ignore[no-untyped-def]
+    """Keep of ``members[middle:end]`` what is not in ``members[begin:middle]``; return the new end."""
+    kept = middle
+    for k in range(middle, end):
+        j = members[k]
+        new = True
+        for m in range(begin, middle):
+            new = new and members[m] != j
+        members[kept] = j
+        kept += 1 if new else 0
+    return kept
+
+
+@numba.njit(error_model="numpy", forceinline=True)
+def _gather(  # type: ignore[no-untyped-def]
+    rows, dim, box, radius, grid, starts, order, row, shifts, first, last, selected, repeated, alone, members, begin
+):
+    """List in ``members``, from place ``begin`` on, what is near a cluster with its copies; return the end.
+
+    ``row``: the first row that the ``order`` counts from; of the cluster ``first`` .. ``last`` only what is near a
+    particle is kept if ``selected``, not the particle itself if ``alone``, and each neighbour once if it may be
+    ``repeated``.
+    """
+    x0, x1, y0, y1, z0, z1 = box
+    limit = radius * radius
+    room = members.shape[0] - 1
+    found = begin
+    for s in range(shifts.shape[0]):
+        shift = shifts[s]
+        sz = shift[dim - 1]
+        moved = (x0 - shift[0], x1 - shift[0], y0 - shift[1], y1 - shift[1], z0 - sz, z1 - sz)
+        before = found
+        found = _collect(rows, dim, moved, radius, grid, starts, order, row, members, found)
+        if selected and found <= room:
+            found = _select(rows, members, before, found, first, last, dim, limit, shift, alone)
+        if s > 0 and repeated and found <= room:
+            found = _without_repeats(members, begin, before, found)
+    return found
+
+
 @numba.njit(parallel=True, cache=True, error_model="numpy")
 def _list_particles(  # type: ignore[no-untyped-def]
-    rows, n, cluster, dim, radius, grid, starts, no_order, ghost_starts, ghost_order, lists, counts, ghost_counts
-):
-    """List the neighbours of each cluster; returns the longest list, which must stay below the capacity."""
-    limit = radius * radius
-    room = lists.shape[1] - 1
+    rows, n, cluster, dim, radius, grid, starts, no_order, ghost_starts, ghost_order, shifts, narrow,
+    lists, counts, ghost_counts,
+):  # fmt: skip
+    """List the neighbours of each cluster; returns the longest list, which must stay below the capacity.
+
+    Copies are moved by ``shifts`` (m, 3). A cluster whose box exceeds ``narrow`` (3,) may meet a neighbour twice.
+    """
     longest = 0
     for c in numba.prange(counts.shape[0]):
         first = c * cluster
@@ -348,25 +419,33 @@ def _list_particles(  # type: ignore[no-untyped-def]
             z1 = max(z1, rows[i, dim - 1])
         box = (x0, x1, y0, y1, z0, z1)
         selected = last - first == 1 or max(x1 - x0, y1 - y0, z1 - z0) > 1.5 * radius
+        repeated = x1 - x0 >= narrow[0] or y1 - y0 >= narrow[1] or (dim == 3 and z1 - z0 >= narrow[2])
         members = lists[c]
-        found = _collect(rows, dim, box, radius, grid, starts, no_order, 0, members, 0)
-        if selected and found <= room:
-            found = _select(rows, members, 0, found, first, last, dim, limit, cluster == 1)
+        found = _gather(
+            rows, dim, box, radius, grid, starts, no_order, 0, shifts, first, last, selected, repeated, cluster == 1,
+            members, 0,
+        )  # fmt: skip
         counts[c] = found
-        found = _collect(rows, dim, box, radius, grid, ghost_starts, ghost_order, n, members, found)
-        if selected and found <= room:
-            found = _select(rows, members, counts[c], found, first, last, dim, limit, cluster == 1)
+        found = _gather(
+            rows, dim, box, radius, grid, ghost_starts, ghost_order, n, shifts, first, last, selected, repeated,
+            cluster == 1, members, found,
+        )  # fmt: skip
         ghost_counts[c] = found - counts[c]
         longest = max(longest, found)
     return longest
 
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
-def _list_points(points, rows, dim, radius, grid, starts, no_order, lists, counts):  # type: ignore[no-untyped-def]
+def _list_points(  # type: ignore[no-untyped-def]
+    points, rows, dim, radius, grid, starts, no_order, shifts, lists, counts
+):
     """List the fluid neighbours of each point; returns the longest list, which must stay below the capacity."""
     longest = 0
     for i in numba.prange(points.shape[0]):
         x, y, z = points[i, 0], points[i, 1], points[i, dim - 1]
-        counts[i] = _collect(rows, dim, (x, x, y, y, z, z), radius, grid, starts, no_order, 0, lists[i], 0)
+        box = (x, x, y, y, z, z)
+        counts[i] = _gather(
+            rows, dim, box, radius, grid, starts, no_order, 0, shifts, 0, 0, False, False, False, lists[i], 0
+        )
         longest = max(longest, counts[i])
     return longest

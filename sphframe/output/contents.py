@@ -93,6 +93,7 @@ def frame_of(simulation: RunView) -> dict[str, Any]:
     fields = simulation.fields()
     return {
         **{name: getattr(fields, name) for name in ("position", "velocity", "pressure", "density")},
+        **({"turns": simulation.turns()} if simulation.case.periodic else {}),
         "particles_outside": simulation.particles_outside(),
         "ghost_pressure": simulation.ghost_fields().pressure,
         "time": simulation.time,
@@ -155,6 +156,7 @@ def _variables(simulation: RunView) -> dict[str, Variable]:
     """The schema and the case's diagnostics; ``particle_mass`` stays the last variable of the fixed part."""
     dimension = simulation.case.dimension
     absent = {"probe_z", "gauge_y"} if dimension == 2 else set()
+    absent |= set() if simulation.case.periodic else {"turns"}
     diagnostics = {}
     for diagnostic in simulation.scene.diagnostics:
         if diagnostic.name in VARIABLES:

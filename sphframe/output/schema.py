@@ -139,6 +139,12 @@ VARIABLES: Mapping[str, Variable] = {
     # frames
     "time": Variable(("time",), "s", "time of the frames"),
     "position": Variable(("time", "particle", "space"), "m", "position"),
+    "turns": Variable(
+        ("time", "particle", "space"),
+        "1",
+        "periods by which the particle has left the domain, in periodic directions",
+        "i4",
+    ),
     "velocity": Variable(("time", "particle", "space"), "m s-1", "velocity"),
     "pressure": Variable(("time", "particle"), "Pa", "pressure"),
     "particles_outside": Variable(("time",), "1", "fluid particles behind a wall", "i4"),

@@ -22,6 +22,8 @@ class LoopParameters(NamedTuple):
     viscosity: Pa s, factor of pi_ij: alpha h c0 rho0, and 2 (d + 2) rho0 nu of the form of Monaghan and Gingold.
     friction: 2 rho0 nu of the form of Morris, Pa s.
     spacing: particle spacing dx, m; ``depth``: greatest depth of still water, m.
+    period_x, period_y, period_z: length of each direction that repeats itself, m, else 0; ``per_period_x``,
+        ``per_period_y``, ``per_period_z``: their inverses, else 0. Parallel loops take no tuples within tuples.
     """
 
     smoothing_length: float
@@ -36,6 +38,12 @@ class LoopParameters(NamedTuple):
     friction: float
     spacing: float
     depth: float
+    period_x: float = 0.0
+    period_y: float = 0.0
+    period_z: float = 0.0
+    per_period_x: float = 0.0
+    per_period_y: float = 0.0
+    per_period_z: float = 0.0
     force_x: float = 0.0
     force_y: float = 0.0
     force_z: float = 0.0
@@ -65,12 +73,14 @@ class LoopParameters(NamedTuple):
         morris: bool = True,
         spacing: float = 0.0,
         depth: float = 0.0,
+        period: Sequence[float] = (),
     ) -> "LoopParameters":
         """Return the constants for the dimensionless ``density_diffusion`` delta and ``artificial_viscosity`` alpha.
 
         ``kinematic_viscosity`` nu, m^2/s, has the form of Morris, or else of Monaghan and Gingold.
         """
         vector = gravity_vector(gravity, dim)
+        length = [*map(float, period), 0.0, 0.0, 0.0]
         laminar = reference_density * kinematic_viscosity
         return cls(
             smoothing_length=float(smoothing_length),
@@ -86,5 +96,7 @@ class LoopParameters(NamedTuple):
             friction=2.0 * laminar if morris else 0.0,
             spacing=float(spacing),
             depth=float(depth),
+            **{f"period_{axis}": x for axis, x in zip("xyz", length, strict=False)},
+            **{f"per_period_{axis}": 1.0 / x if x > 0.0 else 0.0 for axis, x in zip("xyz", length, strict=False)},
             **dict(zip(("force_x", "force_y", "force_z"), vector.tolist(), strict=False)),
         )

@@ -6,8 +6,8 @@ the acceleration and the density gradient together, since half of the cost of a 
 
 import numba
 
-from sphframe.compiled import LANES, fma, local_array
-from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, MASKED, MORRIS, SUPPORT
+from sphframe.compiled import LANES, fma, local_array, nearest
+from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, MASKED, MORRIS, PERIODIC, SUPPORT
 from sphframe.neighbours.sight import WHOLE
 from sphframe.physics.body_force import body_force
 from sphframe.physics.continuity import diffusive_flux
@@ -88,9 +88,14 @@ def fluid_sums(  # type: ignore[no-untyped-def]
                 for a in range(LANES):
                     dx = xj - x[a]
                     dy = yj - y[a]
+                    if PERIODIC:
+                        dx = nearest(dx, parameters, 0)
+                        dy = nearest(dy, parameters, 1)
                     r2 = fma(dx, dx, dy * dy)
                     if DIM == 3:
                         dz = zj - z[a]
+                        if PERIODIC:
+                            dz = nearest(dz, parameters, 2)
                         r2 = fma(dz, dz, r2)
                     weight = GRADIENT(r2 * per_h2) * scale
                     weight = weight if r2 < limit else 0.0  # a selection, not a branch, so that the loop vectorises

@@ -15,7 +15,7 @@ import math
 import numba
 
 from sphframe.compiled import squared_distance
-from sphframe.compiled.stand_ins import COLUMNS, DIM, SUPPORT, VALUE
+from sphframe.compiled.stand_ins import COLUMNS, DIM, PERIODIC, SUPPORT, VALUE
 from sphframe.physics.body_force import body_force
 
 
@@ -27,11 +27,15 @@ def sample_points(points, rows, lists, counts, parameters, pressures, fillings):
         ax, ay, az = body_force(parameters, points[i, 0], points[i, 1], points[i, COLUMNS.z])
         bx, by = parameters.reference_density * ax, parameters.reference_density * ay
         bz = parameters.reference_density * az
+        if PERIODIC:  # no pressure grows along a direction that repeats itself
+            bx = 0.0 if parameters.period_x > 0.0 else bx
+            by = 0.0 if parameters.period_y > 0.0 else by
+            bz = 0.0 if parameters.period_z > 0.0 else bz
         filling = 0.0
         pressure = 0.0
         for k in range(counts[i]):
             j = lists[i, k]
-            r2 = squared_distance(rows, j, points, i, DIM)
+            r2 = squared_distance(rows, j, points, i, DIM, PERIODIC, parameters)
             if r2 < limit:
                 part = parameters.kernel_scale * VALUE(math.sqrt(r2) * per_h) * rows[j, COLUMNS.volume]
                 filling += part

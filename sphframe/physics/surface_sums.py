@@ -11,8 +11,8 @@ A treatment gives force and divergence of each edge; those of USAW are divided b
 
 import numba
 
-from sphframe.compiled import LANES
-from sphframe.compiled.stand_ins import COLUMNS, EDGE_INTEGRALS, SURFACE
+from sphframe.compiled import LANES, nearest
+from sphframe.compiled.stand_ins import COLUMNS, EDGE_INTEGRALS, PERIODIC, SURFACE
 from sphframe.interfaces import Edge, FluidSide
 from sphframe.physics.body_force import body_force
 from sphframe.physics.wall_force import add_load
@@ -28,10 +28,12 @@ _LEAST = 0.05
 
 
 @numba.njit(inline="always")
-def _edge(rows, i, j, walls, g, parameters, columns, integrals, sigma, h):  # type: ignore[no-untyped-def]
+def _edge(rows, i, j, walls, g, parameters, columns, integrals, sigma, h, periodic):  # type: ignore[no-untyped-def]
     """Return the :class:`Edge` of wall particle ``g`` in row ``j``, as particle ``i`` sees it."""
     nx, ny = walls.normal[g, 0], walls.normal[g, 1]
     dx, dy = rows[j, 0] - rows[i, 0], rows[j, 1] - rows[i, 1]
+    if periodic:
+        dx, dy = nearest(dx, parameters, 0), nearest(dy, parameters, 1)
     z = dx * nx + dy * ny
     along = dy * nx - dx * ny
     half = 0.5 * walls.volume[g] / parameters.spacing
@@ -57,7 +59,7 @@ def surface_sums(  # type: ignore[no-untyped-def]
             solid = 0.0
             for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
                 j = lists[c, k]
-                edge = _edge(rows, i, j, walls, j - n, parameters, COLUMNS, EDGE_INTEGRALS, SIGMA, h)
+                edge = _edge(rows, i, j, walls, j - n, parameters, COLUMNS, EDGE_INTEGRALS, SIGMA, h, PERIODIC)
                 wall = wall_side(rows, j, walls, j - n, COLUMNS)
                 ex, ey, opening = SURFACE(fluid, wall, edge, parameters)
                 solid += edge.solid
@@ -94,13 +96,15 @@ def surface_reaction(  # type: ignore[no-untyped-def]
                 solid = 0.0
                 for k in range(first, last):
                     j = lists[c, k]
-                    edge = _edge(rows, i, j, walls, j - fluid_count, parameters, COLUMNS, EDGE_INTEGRALS, SIGMA, h)
+                    edge = _edge(
+                        rows, i, j, walls, j - fluid_count, parameters, COLUMNS, EDGE_INTEGRALS, SIGMA, h, PERIODIC
+                    )
                     solid += edge.solid
                 volume /= max(1.0 - solid, _LEAST)
             for k in range(first, last):
                 j = lists[c, k]
                 g = j - fluid_count
-                edge = _edge(rows, i, j, walls, g, parameters, COLUMNS, EDGE_INTEGRALS, SIGMA, h)
+                edge = _edge(rows, i, j, walls, g, parameters, COLUMNS, EDGE_INTEGRALS, SIGMA, h, PERIODIC)
                 ex, ey, _ = SURFACE(fluid, wall_side(rows, j, walls, g, COLUMNS), edge, parameters)
                 own = ghost_walls[g]
                 add_load(partial[chunk, own], rows[i], centres[own], -volume * ex, -volume * ey, 0.0)

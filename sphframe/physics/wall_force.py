@@ -14,8 +14,8 @@ Departs from the paper: its Eq. 29 takes a pressure difference, which is zero on
 
 import numba
 
-from sphframe.compiled import LANES
-from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, MORRIS, SEEN, SUPPORT
+from sphframe.compiled import LANES, nearest
+from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, MORRIS, PERIODIC, SEEN, SUPPORT
 from sphframe.interfaces import FluidSide, Separation
 from sphframe.neighbours.sight import WHOLE
 from sphframe.physics.momentum import pair_stress
@@ -76,10 +76,15 @@ def wall_reaction(  # type: ignore[no-untyped-def]
                     g = images.ghost[row] if IMAGES else j - fluid_count
                     dx = source[row, 0] - rows[i, 0]
                     dy = source[row, 1] - rows[i, 1]
+                    if PERIODIC:
+                        dx = nearest(dx, parameters, 0)
+                        dy = nearest(dy, parameters, 1)
                     dz = 0.0
                     r2 = dx * dx + dy * dy
                     if DIM == 3:
                         dz = source[row, 2] - rows[i, 2]
+                        if PERIODIC:
+                            dz = nearest(dz, parameters, 2)
                         r2 += dz * dz
                     if r2 < limit:
                         pressures = rows[i, COLUMNS.pressure] + source[row, COLUMNS.pressure]

@@ -7,8 +7,8 @@ force of its own adds its acceleration instead, and has no part in the density r
 
 import numba
 
-from sphframe.compiled import LANES, fma, local_array
-from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, MORRIS, SEEN, SUPPORT
+from sphframe.compiled import LANES, fma, local_array, nearest
+from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, MORRIS, PERIODIC, SEEN, SUPPORT
 from sphframe.interfaces import FluidSide, Separation
 from sphframe.neighbours.sight import WHOLE
 from sphframe.physics.momentum import pair_stress
@@ -73,6 +73,10 @@ def wall_sums(  # type: ignore[no-untyped-def]
                     dx = xj - x[a]
                     dy = yj - y[a]
                     dz = zj - z[a]
+                    if PERIODIC:
+                        dx = nearest(dx, parameters, 0)
+                        dy = nearest(dy, parameters, 1)
+                        dz = nearest(dz, parameters, 2)
                     r2 = fma(dx, dx, dy * dy)
                     if DIM == 3:
                         r2 = fma(dz, dz, r2)

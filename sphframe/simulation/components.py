@@ -59,6 +59,7 @@ class Components:
         chosen = {field: getattr(case, field).create(kind) for field, kind in COMPONENT_KINDS.items()}
         kernel = compiled_kernel(chosen["kernel"], case.dimension)
         parts = loop_parts(kernel, chosen["equation_of_state"], case.dimension)
+        parts["PERIODIC"] = bool(case.periodic)
         parts["MORRIS"] = case.kinematic_viscosity > 0.0 and case.viscosity_model == "morris"
         treatment: WallTreatment = chosen["wall_treatment"]
         if case.dimension not in treatment.traits.dimensions:

@@ -23,7 +23,7 @@ from sphframe.errors import InputError
 from sphframe.geometry import Wall, panels_of
 from sphframe.geometry.shapes import grid
 from sphframe.neighbours import NeighbourLists, Sight, share_points
-from sphframe.particles import Columns
+from sphframe.particles import Columns, Periods
 from sphframe.physics import LoopParameters, sample_points
 from sphframe.simulation.components import Components
 
@@ -56,11 +56,16 @@ def filling_by(
     components: Components,
     parameters: LoopParameters,
     sight: Sight | None = None,
+    periods: Periods | None = None,
 ) -> Array:
     """Return sum_j V_j W(x - x_j) at ``points`` x (k, dim), m, over particles at ``position`` (n, dim), m.
 
-    With ``sight``, the last ones are the ghosts, and counted is what is seen from each point.
+    With ``sight``, the last ones are the ghosts, and counted is what is seen from each point. With ``periods``, copies
+    of particles count, too.
     """
+    if periods:
+        position, number = periods.with_copies(position, parameters.support)
+        points, volume = periods.wrapped(points), volume[number]
     columns, sums = Columns.of(points.shape[1]), np.zeros(len(points))
     if len(points) and len(position):
         rows = columns.zeros(len(position))
@@ -92,17 +97,23 @@ def filling_beside_walls(
     """Return F beside the walls of ``boundary``, as drawn, with fluid particles at ``position`` (n, dim), m."""
     from scipy.spatial import cKDTree
 
-    fluid = cKDTree(position)
+    copies, margin = boundary.periods, 2.0 * parameters.support
+    fluid = cKDTree(copies.with_copies(position, margin)[0])
     panels = panels_of(boundary.groups, spacing)
     normal = panels.area / np.linalg.norm(panels.area, axis=1)[:, None]
     inside = panels.centre - 0.5 * spacing * normal
     wet = (fluid.query(inside)[0] < _NEAR * spacing) & ~_behind(boundary, inside)
-    distance, ghost = cKDTree(boundary.position).query(position)
+    if boundary.count:
+        around, own = copies.with_copies(boundary.position, margin)
+        distance, ghost = cKDTree(around).query(position)
+        ghost = own[ghost]
+    else:
+        distance, ghost = np.full(len(position), np.inf), np.zeros(len(position), np.int64)
     next_to = distance < 1.25 * spacing
     points = np.vstack([inside[wet], position[next_to]])
     wall = np.concatenate([panels.wall[wet], boundary.wall[ghost[next_to]]])
     every, volumes = np.vstack([position, boundary.position]), np.concatenate([volume, boundary.volume])
-    value = filling_by(every, volumes, points, components, parameters, boundary.sight)
+    value = filling_by(every, volumes, points, components, parameters, boundary.sight, copies)
 
     full = np.ones(len(points), dtype=np.bool_)
     along = np.arange(-parameters.support, parameters.support + spacing, spacing)

@@ -174,13 +174,14 @@ def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator | None,
     boundary, columns, n = system.boundary, system.columns, system.fluid_count
     traits, fluid = interpolator.traits, system.rows[: system.fluid_count]
     points = boundary.points
-    if not np.all(np.isfinite(points)) or n == 0:
+    if not np.all(np.isfinite(points)) or n == 0 or not len(points):
         return
+    position, number = boundary.periods.with_copies(fluid[:, columns.position], system.parameters.support)
     matrix, statuses = operator(
         interpolator,
-        points,
-        fluid[:, columns.position],
-        fluid[:, columns.volume],
+        boundary.periods.wrapped(points),
+        position,
+        fluid[number, columns.volume],
         smoothing_length=system.parameters.smoothing_length,
         kernel=kernel,
         lift=boundary.lift_of_weights,

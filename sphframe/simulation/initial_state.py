@@ -14,7 +14,7 @@ from sphframe.compiled import LANES, specialise
 from sphframe.geometry import fill, panels_of
 from sphframe.interfaces import WallGeometry
 from sphframe.neighbours import NeighbourLists
-from sphframe.particles import Columns
+from sphframe.particles import Columns, Periods
 from sphframe.physics import LoopParameters, invert_pressure
 from sphframe.simulation.body_contact import FREQUENCY, BodyContacts
 from sphframe.simulation.components import Components
@@ -44,6 +44,7 @@ def loop_parameters(case: Case, scene: Scene, components: Components) -> LoopPar
         morris=case.viscosity_model == "morris",
         spacing=case.particle_spacing,
         depth=scene.depth,
+        period=Periods.of(case.periodic, scene.domain).length.tolist(),
     )
 
 
@@ -97,6 +98,7 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
         cluster=LANES,
         width=0.75 * LANES ** (1.0 / dim) * spacing,
         sight=boundary.sight,
+        periods=boundary.periods,
     )
     if scene.initial_pressure is not None:
         pressure = scene.initial_pressure(position)
@@ -105,7 +107,11 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
         levels = still_levels(scene, regions, spacing, boundary.groups, case.upward)
         depth = levels[members] - position @ case.upward
         pressure = pressure_at_depth(
-            depth, components.parts["DENSITY"], parameters.reference_density, parameters.sound_speed, parameters.gravity
+            depth,
+            components.parts["DENSITY"],
+            parameters.reference_density,
+            parameters.sound_speed,
+            float(np.linalg.norm(case.pressing_gravity)),
         )
         for index, region in enumerate(scene.fluid):
             if region.pressure is not None:

@@ -10,7 +10,7 @@ from sphframe.cases import Case, Scene
 from sphframe.compiled import specialise
 from sphframe.errors import InputError
 from sphframe.interfaces import EvaluationPoint, WallGeometry
-from sphframe.particles import Columns
+from sphframe.particles import Columns, Periods
 from sphframe.physics import LoopParameters, invert_pressure, uniform_and_linear
 from sphframe.simulation.components import Components
 from sphframe.simulation.filling_check import filling_by
@@ -25,6 +25,11 @@ def initial_boundary(case: Case, scene: Scene, components: Components, parameter
     """
     interpolator, treatment = components.interpolator, components.wall_treatment
     in_row, of_images = (treatment.geometry is kind for kind in (WallGeometry.ROW, WallGeometry.IMAGES))
+    if of_images and case.periodic:
+        raise InputError(
+            f"wall_treatment = {case.wall_treatment.name!r} makes images of the fluid, which is not possible in a case"
+            ' with periodic directions: choose a treatment with ghosts, such as wall_treatment = "fixed-ghosts"'
+        )
     boundary = Boundary(
         scene.walls,
         scene.bodies,
@@ -34,11 +39,15 @@ def initial_boundary(case: Case, scene: Scene, components: Components, parameter
         support=parameters.support,
         no_slip=case.slip == "no" and not of_images,
         row_spacing=treatment.row_spacing * case.particle_spacing if in_row else None,
+        periods=Periods.of(case.periodic, scene.domain),
     )
     if in_row or of_images or components.walls.surface is not None:
         _check_thick(boundary)
     if case.tension == "none" and interpolator is not None:
-        filled = filling_by(boundary.position, boundary.volume, boundary.points, components, parameters, boundary.sight)
+        filled = filling_by(
+            boundary.position, boundary.volume, boundary.points, components, parameters, boundary.sight,
+            boundary.periods,
+        )  # fmt: skip
         boundary.full[:] = 1.0 - filled
     return boundary
 
@@ -75,9 +84,11 @@ def hydrostatic_densities(
     boundary: Boundary, position: Array, pressure: Array, components: Components, parameters: LoopParameters
 ) -> Array:
     """Return densities of ghosts (g,) in equilibrium with the nearest particle of the fluid; rho0 where it is far."""
-    distance, nearest = cKDTree(position).query(boundary.position)
+    around, number = boundary.periods.with_copies(position, parameters.support)
+    distance, nearest = cKDTree(around).query(boundary.position)
     weight = parameters.reference_density * uniform_and_linear(parameters, boundary.dim)[0]
-    lift = np.einsum("gi,i->g", boundary.position - position[nearest], weight)
+    lift = np.einsum("gi,i->g", boundary.position - around[nearest], np.where(boundary.periods.repeats, 0.0, weight))
+    nearest = number[nearest]
     columns = Columns.of(boundary.dim)
     rows = columns.zeros(boundary.count)
     found = np.maximum(pressure[nearest] + lift, 0.0)

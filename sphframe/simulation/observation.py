@@ -43,8 +43,10 @@ class Observation:
         self._gauges = Gauges(scene.gauges, self._lower, self._upper, 0.25 * case.particle_spacing, list(scene.bodies))
         self._solid = filling_by(  # share of the kernel within walls
             self.boundary.position, self.boundary.volume, self._probes.points, components, self.parameters,
-            self.boundary.sight,
+            self.boundary.sight, self.boundary.periods,
         )  # fmt: skip
+        self._lower[self.boundary.periods.repeats] = -np.inf
+        self._upper[self.boundary.periods.repeats] = np.inf
         panels = panels_of(self.boundary.groups, case.particle_spacing)
         if self.boundary.sides is not None:  # on the wall itself they would see both sides of a thin one
             panels = panels.in_front(1e-3 * case.particle_spacing)
@@ -86,7 +88,16 @@ class Observation:
 
     def fields(self) -> Fields:
         """Return copies of the fluid's fields in the particles' original order; NaN for removed particles."""
-        return Fields(*map(self.in_original_order, self._fluid()))
+        fields = self._fluid()
+        fields = fields._replace(position=self.boundary.periods.wrapped(fields.position))
+        return Fields(*map(self.in_original_order, fields))
+
+    def turns(self) -> IntArray:
+        """Return by how many periods (n, dim) the particles have left the box, in their original order."""
+        position = self.system.rows[: self.fluid_count, self.columns.position]
+        ordered = np.zeros((self.particle_count, self.case.dimension), np.int64)
+        ordered[self.system.ids] = self.system.turns + self.boundary.periods.turns(position)
+        return ordered
 
     def ghost_fields(self) -> Fields:
         """Return copies of the ghosts' fields as last filled."""
@@ -150,7 +161,9 @@ class Observation:
         compliance = mass / (fields.density**2 * self.sound_speed**2)
         return {
             "kinetic": 0.5 * float(np.einsum("i,ij,ij->", mass, fields.velocity, fields.velocity)),
-            "potential": self._potential_energy(mass, fields.position),
+            "potential": self._potential_energy(
+                mass, fields.position + self.system.turns * self.boundary.periods.length
+            ),
             "internal": 0.5 * float(np.einsum("i,i,i->", compliance, fields.pressure, fields.pressure)),
         }
 

@@ -77,7 +77,7 @@ class Simulation(Observation):
             self.between_steps = False
             with naming_component(self.case, running=True):
                 self.components.integrator.step(self.system, self.time, self.time_step)
-            self.system.put_back(self.case.particle_spacing)
+            self.system.put_back()
             self.time = min(self.time + self.time_step, self.case.until)
             self.step += 1
             self._check()

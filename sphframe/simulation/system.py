@@ -38,6 +38,7 @@ class FluidSystem(System):
     rates: (n, 2 dim + 1) velocity, acceleration and density rate of the last evaluation.
     gradient: (n, dim) renormalised density gradient, kg/m^4.
     ids: (n,) original numbers of the fluid particles, which are kept in spatial order.
+    turns: (n, dim) periods by which each of them has left the box that repeats itself.
     bodies: the states of the bodies; ``contacts`` between them and walls.
     loads: (walls, 3 or 6) force and moment of the fluid on each wall.
     """
@@ -71,9 +72,11 @@ class FluidSystem(System):
         count = lists.fluid_count
         self.rows, self.lists = rows, lists
         self.ids = np.arange(count)
+        self.turns = np.zeros((count, dim), np.int64)
         self.rates, self._start, self._total = (np.zeros((count, self.columns.density + 1)) for _ in range(3))
         self.gradient = np.zeros((count, dim))
         self._spare = np.zeros((count, self.columns.width))
+        self._saved = (*_SAVED, "turns") if boundary.periods else _SAVED
         self._pressure_is_current = False
 
     @property
@@ -84,8 +87,15 @@ class FluidSystem(System):
     # neighbours
 
     def find_neighbours(self) -> None:
-        """Put the particles in spatial order and list their neighbours."""
+        """Put the particles in spatial order, in the box that repeats itself, and list their neighbours."""
+        periods = self.boundary.periods
+        if periods:
+            position = self.rows[: self.fluid_count, self.columns.position]
+            turns = periods.turns(position)
+            position -= turns * periods.length
+            self.turns += turns
         order = self.lists.sort(self.rows)
+        self.turns = self.turns[order] if periods else self.turns
         for array in (self.rows, self.rates, self.gradient):
             put_in_order(array, order, self._spare)
         self.ids = self.ids[order]
@@ -104,7 +114,8 @@ class FluidSystem(System):
         """Continue with the fluid particles that are ``kept`` (n,), whose neighbours must be found again."""
         n = self.fluid_count
         self.rows = np.vstack([self.rows[:n][kept], self.rows[n:]])
-        self.ids, self.rates, self.gradient = self.ids[kept], self.rates[kept], self.gradient[kept]
+        self.ids, self.turns = self.ids[kept], self.turns[kept]
+        self.rates, self.gradient = self.rates[kept], self.gradient[kept]
         self._start, self._total, self._spare = self._start[kept], self._total[kept], self._spare[kept]
         self.lists = self.lists.resized(self.fluid_count)
 
@@ -172,39 +183,28 @@ class FluidSystem(System):
     def update_loads(self) -> None:
         """Compute force and moment of the fluid on each wall."""
         shares = self.boundary.corner_shares(self.bodies.motions)
-        self._react(self.boundary.wall, shares, self.references(), self._partial_loads, self.loads)
+        self.react(self.boundary.wall, shares, self.references(), self._partial_loads, self.loads)
 
-    def _react(self, walls: IntArray, shares: Shares, centres: Array, partial: Array, loads: Array) -> None:
+    def react(self, walls: IntArray, shares: Shares, centres: Array, partial: Array, loads: Array) -> None:
+        """Write the loads on the ``walls`` (g,) of the ghosts, see :class:`RateLoops`."""
         self._loops.react(self.rows, self.lists, self.boundary, self.parameters, walls, shares, centres, partial, loads)
 
     def references(self) -> Array:
         """Return the points (walls, dim) to which moments refer: the centre of the wall's body, or the origin, m."""
         return self.boundary.references(self.bodies.motions)
 
-    def reaction_of(self, ghosts: BoolArray, wall: int) -> Array:
-        """Return force and moment (3 or 6,) of the fluid on some ``ghosts`` (g,) of a wall, without corner shares."""
-        boundary = self.boundary
-        nothing = np.zeros_like(boundary.position)
-        shares = Shares(np.full(boundary.count, -1), nothing, nothing)
-        loads = np.zeros((2, self.bodies.size))  # the second is of all other ghosts
-        self._react(
-            np.where(ghosts, 0, 1), shares, self.references()[[wall, wall]], np.zeros((64, *loads.shape)), loads
-        )
-        own: Array = loads[0]
-        return own
-
     def _body_loads(self) -> Array:
         """Force and moment (bodies, 3 or 6) of the fluid on each body, as last computed."""
         wall_body, count = self.boundary.wall_body, len(self.bodies)
         return np.array([self.loads[wall_body == k].sum(axis=0) for k in range(count)]).reshape(count, self.bodies.size)
 
-    def put_back(self, spacing: float) -> int:
+    def put_back(self) -> int:
         """Put particles that have come behind a wall back on it; return how many there were."""
         lists, boundary = self.lists, self.boundary
         return int(
             self._put_back(
                 self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares,
-                boundary.passable, self.columns, spacing, boundary.foot, boundary.normal, boundary.velocity,
+                boundary.passable, self.columns, self.parameters, boundary.foot, boundary.normal, boundary.velocity,
             )
         )  # fmt: skip
 
@@ -263,7 +263,7 @@ class FluidSystem(System):
         parts = {"bodies": self.bodies.state(), "boundary": self.boundary.state(), "lists": self.lists.state()}
         return {
             "ids": self.ids.copy(),
-            **{name: getattr(self, name).copy() for name in _SAVED},
+            **{name: getattr(self, name).copy() for name in self._saved},
             **{f"{part}.{name}": array for part, arrays in parts.items() for name, array in arrays.items()},
         }
 
@@ -276,7 +276,7 @@ class FluidSystem(System):
         self.lists.restore(_part(state, "lists"), self.rows)
         self.bodies.restore(_part(state, "bodies"))
         self.boundary.restore(_part(state, "boundary"))
-        for name in _SAVED:
+        for name in self._saved:
             getattr(self, name)[:] = state[name]
         self._pressure_is_current = False
 

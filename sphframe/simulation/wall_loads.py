@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from sphframe.arrays import Array, BoolArray
+from sphframe.boundary.corners import Shares
 from sphframe.cases import WallPart
 from sphframe.geometry import Panels, Wall, directions_to_world, moments, to_world
 from sphframe.interfaces import WallLoad
@@ -54,7 +55,7 @@ class WallLoads:
         system.update_loads()
         reactions = {name: system.loads[k].copy() for k, name in enumerate(self._names)}
         for name, ghosts in self._ghosts.items():
-            reactions[name] = system.reaction_of(ghosts, self._surfaces[name][0])
+            reactions[name] = self._reaction(ghosts, self._surfaces[name][0])
         centre, area = self._panels.centre.copy(), self._panels.area.copy()
         for wall, body in enumerate(boundary.wall_body):
             if body >= 0:
@@ -73,6 +74,17 @@ class WallLoads:
             by_reaction, by_pressure = moments(np.array([shift, shift]), np.array([reaction[:dim], force]))
             loads[name] = WallLoad(reaction[:dim], force, reaction[dim:] - by_reaction, moment - by_pressure)
         return loads
+
+    def _reaction(self, ghosts: BoolArray, wall: int) -> Array:
+        """Return force and moment (3 or 6,) of the fluid on some ``ghosts`` (g,) of a wall, without corner shares."""
+        system, boundary = self._system, self._system.boundary
+        nothing = np.zeros_like(boundary.position)
+        shares = Shares(np.full(boundary.count, -1), nothing, nothing)
+        loads = np.zeros((2, system.bodies.size))  # the second is of all other ghosts
+        centres = system.references()[[wall, wall]]
+        system.react(np.where(ghosts, 0, 1), shares, centres, np.zeros((64, *loads.shape)), loads)
+        own: Array = loads[0]
+        return own
 
     def _reference(self, wall: int, default: Array) -> Array:
         """Return the present point, m, to which the moment on a wall refers."""

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from sphframe.neighbours import LargestMotion, NeighbourLists
 from sphframe.neighbours.approach import relative_displacement
-from sphframe.particles import Columns
+from sphframe.particles import Columns, Periods
 
 
 @settings(max_examples=40, deadline=None)
@@ -184,3 +184,42 @@ def test_restored_lists_are_those_that_were_saved():
         np.testing.assert_array_equal(getattr(other, name), getattr(lists, name))
     for c, count in enumerate(lists.fluid_counts + lists.ghost_counts):
         np.testing.assert_array_equal(other.fluid[c, :count], lists.fluid[c, :count])
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    dim=st.sampled_from([2, 3]),
+    seed=st.integers(0, 2**31),
+    axes=st.sets(st.sampled_from("xyz"), min_size=1),
+    fluid=st.integers(1, 120),
+    cluster=st.sampled_from([1, 4, 7]),
+    length=st.floats(1.0, 4.0),
+)
+def test_periodic_lists_hold_each_neighbour_once(dim, seed, axes, fluid, cluster, length):
+    random, ghosts = np.random.default_rng(seed), 40
+    periods = Periods.of(sorted(axes), ((-0.5,) * dim, (length - 0.5,) * dim))
+    repeats = np.where(periods.repeats, length, np.inf)
+    columns = Columns.of(dim)
+    rows = columns.zeros(fluid + ghosts)
+    rows[:, columns.position] = random.uniform(-0.5, length - 0.5, (fluid + ghosts, dim))
+    points = random.uniform(-length, 2.0 * length, (ghosts, dim))
+    lists = NeighbourLists(dim, fluid, ghosts, support=0.4, skin=0.05, cluster=cluster, periods=periods)
+    rows[:fluid] = rows[:fluid][lists.sort(rows)]
+    lists.build(rows, points)
+    position = rows[:, columns.position]
+
+    def distance(points):
+        offset = position - points
+        offset[:, periods.repeats] -= length * np.rint(offset[:, periods.repeats] / repeats[periods.repeats])
+        return np.linalg.norm(offset, axis=1)
+
+    for c in range(-(-fluid // cluster)):
+        members = range(c * cluster, min((c + 1) * cluster, fluid))
+        near = np.any([distance(position[i]) < lists.radius for i in members], axis=0)
+        near[members[0]] &= len(members) > 1
+        found = lists.fluid[c, : lists.fluid_counts[c] + lists.ghost_counts[c]].astype(int)
+        assert len(set(found)) == len(found)
+        assert set(np.flatnonzero(near)) <= set(found)
+    for k in range(ghosts):
+        found = lists.points[k, : lists.point_counts[k]].astype(int)
+        assert sorted(found) == list(np.flatnonzero(distance(points[k])[:fluid] < lists.radius))

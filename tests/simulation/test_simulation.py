@@ -135,10 +135,10 @@ def test_a_particle_behind_a_wall_is_put_back_on_it():
     rows, c = simulation.system.rows, simulation.columns
     left = int(np.argmin(rows[: simulation.fluid_count, 0]))
     rows[left, c.position.start], rows[left, c.velocity] = -0.004, (-1.0, 0.5)
-    assert simulation.system.put_back(0.03) == 1
+    assert simulation.system.put_back() == 1
     np.testing.assert_allclose(rows[left, c.position.start], 0.0, atol=1e-15)
     np.testing.assert_allclose(rows[left, c.velocity], [0.0, 0.5], atol=1e-12)
-    assert simulation.system.put_back(0.03) == 0
+    assert simulation.system.put_back() == 0
 
 
 def test_wall_force_of_still_water():
