@@ -9,6 +9,7 @@ from sphframe.boundary.corners import Corners, Shares
 from sphframe.boundary.images import Images
 from sphframe.boundary.movement import move_ghosts
 from sphframe.boundary.sides import WallSides
+from sphframe.boundary.solid_contact import SolidContacts
 from sphframe.boundary.wall_arrays import WallArrays
 from sphframe.geometry import Shape, Wall, ghosts_of, rotation_matrix, row_of, sides_of, wall_groups
 from sphframe.interfaces import EvaluationPoint, Motion, RigidBody, Status
@@ -41,6 +42,7 @@ class Boundary:
     statuses: (g,) :class:`Status` of the last filling.
     wall_state: (g,) what the treatment advances; ``full`` (g,) filling of the evaluation point within the fluid.
     arrays: what compiled loops read of the ghosts; ``images`` of the fluid, for treatments with images.
+    solid_contacts: puts particles back on walls of triangles.
     sides: the sides of walls, where a wall is thin; else None.
     periods: in which the ghosts repeat themselves.
     """
@@ -81,6 +83,8 @@ class Boundary:
         if sides is not None:
             reach = layers * spacing
             self.sides = WallSides(sides[0], self.group_body[sides[1]], self.centres, spacing, reach)
+        exact = not np.any(self.periods.repeats)
+        self.solid_contacts = SolidContacts(self.groups if exact else [], self.group_body, self.centres)
         self._corners = Corners(self.groups, drawn, self.wall_body, self.centres, 1.5 * support)
         self._drawn = drawn
         self._drawn_reflection = np.tile(-np.eye(self.dim), (len(self.wall), 1, 1)) if no_slip else drawn.reflection

@@ -15,6 +15,10 @@ there, and the one with the least s is used. In a concave corner, the particle i
 Where walls are thin, only ghosts count that the particle sees, beside their wall points; it is put a little inside the
 surface, so that its side of the wall remains known.
 
+In 3-D, where walls are given by triangles, the planes only tell which particles may be behind a wall. The nearest point
+of the triangles tells whether they are, and they are put there (:mod:`sphframe.boundary.solid_contact`); not where
+directions are periodic.
+
 Departs from the paper, which has no such rule. In a tank at rest it acts on no particle.
 """
 
@@ -29,6 +33,9 @@ from sphframe.neighbours.sight import WHOLE
 
 HALF = WHOLE // 2
 
+MARKS = False
+"""whether particles are only marked, not put back; bound by specialise()"""
+
 _NEAR = 1.25
 """distance of a ghost over spacing within which it puts particles back"""
 _BESIDE = 3.0
@@ -37,6 +44,8 @@ _ALONG = 0.75
 """distance along a thin wall, over spacing, of a ghost's wall point within which it stands for the wall"""
 _INSIDE = 1e-3
 """distance over spacing from a thin wall at which particles are put back"""
+_MARGIN = 0.2
+"""distance over spacing in front of a plane from which a particle may be behind a wall that is curved"""
 _FIRST_LAYER = 0.625
 """depth over spacing up to which a ghost is of the first layer: it is about 1/2 there, and 3/2 in the next"""
 
@@ -134,16 +143,31 @@ def _ghosts_beside(  # type: ignore[no-untyped-def]
     return kept[:count]
 
 
+@numba.njit(error_model="numpy")
+def _may_be_behind(  # type: ignore[no-untyped-def]
+    rows, i, ghosts, fluid_count, columns, foot, normal, periodic, parameters
+):
+    """Whether row ``i`` lies behind the plane of the wall of any near one of the ``ghosts`` (rows), or close to it."""
+    for ghost in ghosts:
+        g = ghost - fluid_count
+        if _stands_for_wall(rows, i, ghost, foot, g, _NEAR, columns.dim, periodic, parameters):
+            depth = _behind(rows, i, foot, normal, g, columns.dim, periodic, parameters)
+            if depth > -_MARGIN * parameters.spacing:
+                return True
+    return False
+
+
 def put_back(  # type: ignore[no-untyped-def]
     rows, fluid_count, lists, fluid_counts, ghost_counts, shares, passable, columns, parameters, foot, normal,
-    wall_velocity,
+    wall_velocity, marked,
 ):  # fmt: skip
     """Put the particles behind a wall back on its surface, in ``rows``; return their number.
 
     A row of ``lists`` is the common list of LANES particles; ``columns``: :class:`Columns` of ``rows``; ``foot`` and
     ``normal`` (g, dim): wall point, m, and unit normal out of the fluid; ``wall_velocity`` (g, dim): velocity of the
     wall at each ghost, m/s. With MASKED, ``shares`` are those in which the particles see the entries of the lists, and
-    ``passable`` (g,) are ghosts beyond the end of a thin wall.
+    ``passable`` (g,) are ghosts beyond the end of a thin wall. With MARKS, nothing is put back, and ``marked``
+    (fluid_count,) says which particles may be behind a wall.
     """
     contacts = 0
     spacing = parameters.spacing
@@ -169,6 +193,11 @@ def put_back(  # type: ignore[no-untyped-def]
             if closest[a] < near:
                 i = first + a
                 ghosts = lists[c, begin:end]
+                if MARKS:
+                    marked[i] = _may_be_behind(
+                        rows, i, ghosts, fluid_count, columns, foot, normal, PERIODIC, parameters
+                    )
+                    continue
                 inside = 0.0
                 if MASKED:
                     inside = _INSIDE * spacing

@@ -80,6 +80,11 @@ class BoxWalls(WallGroup):
         on_wall = 1e-9 * float(np.max(self._box_upper - self._box_lower))
         return np.asarray(np.any((points < self._lower - on_wall) | (points > self._upper + on_wall), axis=1))
 
+    def feet_behind(self, points: Array) -> tuple[BoolArray, Array]:
+        """Return which of ``points`` (n, 3), m, lie behind a closed face, and their nearest points on the box."""
+        foot = np.clip(points, self._lower, self._upper)
+        return np.any(foot != points, axis=1), foot
+
     def ends(self) -> list[End]:
         """Return nothing: forces in the corners of a box belong to the box."""
         return []

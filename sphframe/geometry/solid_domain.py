@@ -9,6 +9,8 @@ obstacles, as far as this is connected with fluid::
 The set operations are those of the library manifold3d; libigl finds nearest points and what is inside.
 """
 
+import atexit
+import weakref
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -69,6 +71,48 @@ class SolidDomain:
         distance = np.sqrt(squares)
         return Feet(foot, np.where(self.contains(points), -distance, distance), triangle)
 
+    @cached_property
+    def _tree(self) -> Any:
+        import igl
+
+        tree = igl.AABB()
+        tree.init(*self._arrays)
+        atexit.register(_forget_tree, weakref.ref(self))
+        return tree
+
+    @cached_property
+    def _normals(self) -> Array:
+        """Normals (t, 7, 3) of each triangle: of its face, its edges opposite to the corners, and of its corners.
+
+        Those of edges and corners are sums over the triangles there, weighted by their angles: they tell on which side
+        a point lies (J. A. Baerentzen and H. Aanaes (2005), doi:10.1109/TVCG.2005.49).
+        """
+        surface, faces = self.surface, self._arrays[1]
+        edges = np.sort(faces[:, [[1, 2], [2, 0], [0, 1]]], axis=2).reshape(-1, 2)
+        _, number = np.unique(edges, axis=0, return_inverse=True)
+        along_edges = np.zeros((number.max() + 1, 3))
+        np.add.at(along_edges, number.ravel(), np.repeat(surface.face_normals, 3, axis=0))
+        at_edges = along_edges[number.reshape(-1, 3)]
+        return np.concatenate([surface.face_normals[:, None], at_edges, surface.vertex_normals[faces]], axis=1)
+
+    def feet_behind(self, points: Array) -> tuple[BoolArray, Array]:
+        """Return which of ``points`` (n, 3), m, lie behind a wall, and the nearest points (n, 3) of the boundary.
+
+        For few points it is much faster than :meth:`feet`.
+        """
+        vertices, faces = self._arrays
+        squares, triangle, foot = self._tree.squared_distance(vertices, faces, np.ascontiguousarray(points))
+        corner = vertices[faces[triangle]]
+        across = np.cross(corner[:, [1, 2, 0]] - foot[:, None], corner[:, [2, 0, 1]] - foot[:, None])
+        on = np.linalg.norm(across, axis=2)
+        on = on < 1e-9 * on.sum(axis=1)[:, None]  # on the edge opposite to a corner
+        place = np.where(
+            on.sum(axis=1) == 2, 4 + np.argmin(on, axis=1), np.where(on.any(axis=1), 1 + on.argmax(axis=1), 0)
+        )
+        normal = self._normals[triangle, place]
+        behind = np.einsum("ij,ij->i", points - foot, normal) > 0.0
+        return behind & (self.wall[triangle] != OPEN) & (squares > 0.0), foot
+
     def behind(self, points: Array) -> BoolArray:
         """Return whether each of ``points`` (n, 3), m, lies behind a wall: outside, and a wall is the nearest."""
         behind = ~self.contains(points)
@@ -76,6 +120,12 @@ class SolidDomain:
         on_wall = 1e-9 * (1.0 + np.abs(points).max(initial=0.0))
         behind[behind] = (self.wall[feet.triangle] != OPEN) & (feet.depth > on_wall)
         return np.asarray(behind)
+
+
+def _forget_tree(domain: weakref.ReferenceType[SolidDomain]) -> None:
+    """Let the tree of a ``domain`` go before the interpreter ends, since libigl reports what is left then as a leak."""
+    if (remaining := domain()) is not None:
+        remaining.__dict__.pop("_tree", None)
 
 
 class _Body(NamedTuple):

@@ -110,6 +110,10 @@ class SolidWalls(WallGroup):
         """Return whether each of ``points`` (n, 3), m, lies behind one of the walls, and not on it."""
         return self.domain.behind(points)
 
+    def feet_behind(self, points: Array) -> tuple[BoolArray, Array]:
+        """Return which of ``points`` (n, 3), m, lie behind a wall, and their nearest points on the walls."""
+        return self.domain.feet_behind(points)
+
     def ends(self) -> list[End]:
         """Return nothing: surfaces have no ends."""
         return []

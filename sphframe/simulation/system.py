@@ -68,7 +68,7 @@ class FluidSystem(System):
         self._partial_loads = np.zeros((64, walls, self.bodies.size))
         self._driving = Driving(parameters, dim, body_force)
         self._pressure = specialise(update_pressure, parts)
-        self._put_back = specialise(put_back, parts)
+        self._put_back = specialise(put_back, {**parts, "MARKS": boundary.solid_contacts.needed})
         count = lists.fluid_count
         self.rows, self.lists = rows, lists
         self.ids = np.arange(count)
@@ -200,13 +200,14 @@ class FluidSystem(System):
 
     def put_back(self) -> int:
         """Put particles that have come behind a wall back on it; return how many there were."""
-        lists, boundary = self.lists, self.boundary
-        return int(
-            self._put_back(
-                self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares,
-                boundary.passable, self.columns, self.parameters, boundary.foot, boundary.normal, boundary.velocity,
-            )
+        lists, boundary, solids = self.lists, self.boundary, self.boundary.solid_contacts
+        marked = np.zeros(self.fluid_count if solids.needed else 1, np.bool_)
+        count = self._put_back(
+            self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares,
+            boundary.passable, self.columns, self.parameters, boundary.foot, boundary.normal, boundary.velocity,
+            marked,
         )  # fmt: skip
+        return int(count) + solids.put_back(self.rows, np.flatnonzero(marked), self.bodies.motions)
 
     # what integrators are made of
 

@@ -1,0 +1,97 @@
+"""Solids in three dimensions: nothing comes behind them, and bodies float and sink as they must."""
+
+from pathlib import Path
+from typing import Any
+
+import igl
+import numpy as np
+import pytest
+import trimesh
+
+from sphframe import Simulation, load_case
+from sphframe.cases.custom import Custom
+from sphframe.geometry import to_world
+
+SPACING = 0.025
+TANK = {"shape": "box", "name": "tank", "lower": (0, 0, 0), "upper": (0.5, 0.4, 0.4), "open_faces": ("+z",)}
+
+
+def solid(name: str) -> Any:
+    if name == "torus":  # its tube and its hole have radii of two spacings
+        mesh = trimesh.creation.torus(4 * SPACING, 2 * SPACING, major_sections=48, minor_sections=24)
+        mesh.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [0, 1, 0]))
+    elif name == "sphere":
+        mesh = trimesh.creation.icosphere(3, 0.07)
+    else:
+        mesh = trimesh.creation.box((0.1, 0.12, 0.14))
+    mesh.apply_translation((0.33, 0.2, 0.2))
+    return mesh
+
+
+def depth_behind(mesh: Any, points: Any) -> Any:
+    """Depth within ``mesh`` by winding numbers, whatever the normals of the triangles."""
+    kind = igl.SIGNED_DISTANCE_TYPE_FAST_WINDING_NUMBER
+    vertices, triangles = np.array(mesh.vertices), np.array(mesh.faces, np.int64)
+    return -igl.signed_distance(np.ascontiguousarray(points), vertices, triangles, sign_type=kind)[0]
+
+
+@pytest.mark.parametrize(("name", "moving"), [("torus", False), ("torus", True), ("sphere", False), ("box", True)])
+def test_particles_within_a_solid_are_put_back_on_it(tmp_path: Path, name: str, moving: bool) -> None:
+    mesh = solid(name)
+    mesh.export(tmp_path / "solid.stl")
+    wall = {"shape": "mesh", "name": "solid", "file": str(tmp_path / "solid.stl")}
+    turning = {"name": "free", "density": 3000.0, "initial_velocity": (1.0, 2.0, 3.0, 9.0, 8.0, 7.0)}
+    water = {"shape": "box", "lower": (0, 0, 0), "upper": (0.2, 0.4, 0.35)}
+    case = Custom(
+        dimension=3,
+        particle_spacing=SPACING,
+        until=1.0,
+        walls=[TANK, {**wall, "body": "body"} if moving else wall],
+        fluid=[water],
+        bodies={"body": turning} if moving else {},
+    )
+    simulation = Simulation(load_case(case), threads=1)
+    system, n = simulation.system, simulation.system.fluid_count
+    simulation.advance()
+    if moving:
+        at = simulation.body_motions()["body"].position
+        mesh.vertices = to_world(mesh.vertices, at, mesh.center_mass)
+    generator = np.random.default_rng(0)
+    points = trimesh.sample.sample_surface_even(mesh, n, seed=1)[0]
+    points += 0.3 * SPACING * generator.uniform(-1, 1, points.shape)
+    rows, velocity = system.rows[: len(points), :3], system.rows[:n, 3:6]
+    rows[:] = points
+    system.find_neighbours()
+    velocity[:] = generator.normal(size=velocity.shape)
+    before, first_velocity = system.rows[:n, :3].copy(), velocity.copy()
+    depth = depth_behind(mesh, before)
+    system.put_back()
+    after, least = system.rows[:n, :3], 0.005 * SPACING  # the wall follows the curves of the mesh to this distance
+    within, outside = depth > least, depth < -least
+    assert within.sum() > 100
+    np.testing.assert_array_equal(after[outside], before[outside])
+    np.testing.assert_allclose(np.linalg.norm((after - before)[within], axis=1), depth[within], atol=least)
+    assert depth_behind(mesh, after).max() < least
+    change = velocity - first_velocity
+    np.testing.assert_array_equal(change[outside], 0.0)
+    assert np.einsum("ij,ij->i", change, after - before)[within].min() >= 0.0
+    assert np.any(change[within])
+
+
+@pytest.mark.parametrize("name", ["torus", "sphere", "box"])
+def test_water_thrown_at_a_solid_is_never_behind_it(tmp_path: Path, name: str) -> None:
+    mesh = solid(name)
+    mesh.export(tmp_path / "solid.stl")
+    wall: Any = {"shape": "mesh", "name": "solid", "file": str(tmp_path / "solid.stl")}
+    if name == "box":
+        wall = {"shape": "box", "name": "solid", "lower": tuple(mesh.bounds[0]), "upper": tuple(mesh.bounds[1])}
+    water = {"shape": "box", "lower": (0.05, 0.1, 0.075), "upper": (0.2, 0.3, 0.325), "velocity": (2.5, 0, 0)}
+    case = Custom(dimension=3, particle_spacing=SPACING, until=1.0, walls=[TANK, wall], fluid=[water])
+    simulation = Simulation(load_case(case), threads=1)
+    while simulation.time < 0.12:
+        simulation.advance()
+        if simulation.step % 5 == 0:
+            position = simulation.fields().position
+            assert depth_behind(mesh, position).max() < 0.005 * SPACING
+    assert simulation.particles_outside() == 0
+    assert np.sum(depth_behind(mesh, position) > -SPACING) > 30, "some are beside it"
