@@ -79,12 +79,9 @@ class Boundary:
         self.centres = np.zeros((len(names), self.dim))
         for k, body in enumerate(self.bodies.values()):
             self.centres[k, : len(body.centre)] = body.centre
-        self.sides = None
-        if sides is not None:
-            reach = layers * spacing
-            self.sides = WallSides(sides[0], self.group_body[sides[1]], self.centres, spacing, reach)
-        exact = not np.any(self.periods.repeats)
-        self.solid_contacts = SolidContacts(self.groups if exact else [], self.group_body, self.centres)
+        scales = spacing, layers * spacing
+        self.sides = None if sides is None else WallSides(sides[0], self.group_body[sides[1]], self.centres, *scales)
+        self.solid_contacts = SolidContacts(self.groups, self.group_body, self.centres, self.periods)
         self._corners = Corners(self.groups, drawn, self.wall_body, self.centres, 1.5 * support)
         self._drawn = drawn
         self._drawn_reflection = np.tile(-np.eye(self.dim), (len(self.wall), 1, 1)) if no_slip else drawn.reflection

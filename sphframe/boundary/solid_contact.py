@@ -14,20 +14,20 @@ from sphframe.geometry import WallGroup, to_body_frame, to_world, turning_veloci
 from sphframe.geometry.box_walls import BoxWalls
 from sphframe.geometry.solid_walls import SolidWalls
 from sphframe.interfaces import Motion
-from sphframe.particles import Columns
+from sphframe.particles import Columns, Periods
 
 
 class SolidContacts:
     """Contacts of particles with the ``groups`` of walls that the bodies ``group_body`` carry, -1 at rest.
 
-    ``centres`` (bodies, 3) of the bodies as drawn, m.
+    ``centres`` (bodies, 3) of the bodies as drawn, m. With ``periods``, planes at the feet of ghosts are used instead.
     """
 
-    def __init__(self, groups: Sequence[WallGroup], group_body: IntArray, centres: Array) -> None:
-        solid = any(isinstance(group, SolidWalls) for group in groups)
+    def __init__(self, groups: Sequence[WallGroup], group_body: IntArray, centres: Array, periods: Periods) -> None:
+        solid = any(isinstance(group, SolidWalls) for group in groups) and not np.any(periods.repeats)
         self._groups = [
             (group, int(body))
-            for group, body in zip(groups, group_body, strict=False)
+            for group, body in zip(groups, group_body, strict=True)
             if solid and isinstance(group, SolidWalls | BoxWalls)
         ]
         self._centres = centres

@@ -204,8 +204,7 @@ class FluidSystem(System):
         marked = np.zeros(self.fluid_count if solids.needed else 1, np.bool_)
         count = self._put_back(
             self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares,
-            boundary.passable, self.columns, self.parameters, boundary.foot, boundary.normal, boundary.velocity,
-            marked,
+            boundary.passable, self.columns, self.parameters, boundary.foot, boundary.normal, boundary.velocity, marked,
         )  # fmt: skip
         return int(count) + solids.put_back(self.rows, np.flatnonzero(marked), self.bodies.motions)
 
