@@ -6,6 +6,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from sphframe.analysis import fields, plots, probes, scales
+from sphframe.analysis.exact import with_exact_solution
 from sphframe.analysis.series import series_error
 from sphframe.analysis.summary import summary
 
@@ -35,6 +36,16 @@ class SphAccessor:
     def summary(self) -> dict[str, Any]:
         """See :func:`sphframe.analysis.summary`."""
         return summary(self._dataset)
+
+    @property
+    def exact(self) -> xr.Dataset:
+        """The exact solution of the case, see :meth:`sphframe.cases.ExactCase.exact`."""
+        return with_exact_solution(self._dataset).exact(self._dataset)
+
+    @property
+    def measured(self) -> xr.Dataset:
+        """What the run has in place of :attr:`exact`."""
+        return with_exact_solution(self._dataset).measured(self._dataset)
 
     def at(self, time: float | None = None) -> xr.Dataset:
         """See :func:`sphframe.analysis.particles_at`."""

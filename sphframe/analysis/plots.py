@@ -23,6 +23,7 @@ from sphframe.analysis.drawing import (
     vertical_axis,
     view_of,
 )
+from sphframe.analysis.exact import draw_exact, exact_case
 from sphframe.analysis.fields import particles_at
 from sphframe.analysis.figures import figure_class, new_figure, save_figure, tidy
 from sphframe.analysis.scales import pressure_scale, time_scale
@@ -47,7 +48,7 @@ def plot_run(
     """Draw a run: particles coloured by a field at several times, the pressure at the probes, and the energies.
 
     In 3-D the particles within one spacing of the vertical plane through the middle of the tank are shown. Circles
-    mark the probes. A case without probes shows its gauges instead.
+    mark the probes. A case without probes shows its gauges instead, and one with an exact solution run and solution.
 
     Parameters
     ----------
@@ -121,7 +122,12 @@ def _draw_panels(
 
 
 def _draw_series(figure: Any, dataset: xr.Dataset, reference: xr.DataArray | Sequence[xr.DataArray] | None) -> None:
-    """Draw the series of probes or gauges, if the run has any, and the energies."""
+    """Draw run and exact solution; without one, the series of probes or gauges, if there are any, and the energies."""
+    case = exact_case(dataset)
+    if case is not None:
+        panels = list(np.atleast_1d(figure.subplots(1, len(case.exact(dataset).data_vars))))
+        draw_exact(panels, dataset, case)
+        return
     if "probe_pressure" in dataset or "gauge_elevation" in dataset:
         left, right = figure.subplots(1, 2, width_ratios=[1.7, 1.0], gridspec_kw={"wspace": 0.06})
         draw_histories(left, dataset, reference)

@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from sphframe.analysis.exact import exact_case
 from sphframe.analysis.scales import case_of, pressure_scale, time_scale
 from sphframe.interfaces import Status
 
@@ -27,12 +28,15 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
       with a density outside the band of the guards;
     - ``statuses``: share of each interpolation status, over all ghosts and samples;
     - ``peaks``: largest ``pressure`` at each probe and its ``time``, also divided by rho0 g H and sqrt(H/g);
-    - ``front_arrival``: see :func:`front_arrival`; None where the case has no front.
+    - ``front_arrival``: see :func:`front_arrival`; None where the case has no front;
+    - ``errors``: of a case with an exact solution, see :meth:`sphframe.cases.ExactCase.errors`.
     """
     result = _of_the_case(dataset) | {"time": 0.0, "steps": 0, "wall_clock": 0.0}
     result |= {"front_arrival": front_arrival(dataset), "particles_removed": 0, "densities_outside": 0}
     if dataset.sizes["time"]:
         result["particles_outside"] = int(dataset["particles_outside"].max())
+    if (case := exact_case(dataset)) is not None:
+        result["errors"] = case.errors(dataset)
     return result | _of_the_samples(dataset) if dataset.sizes["probe_time"] else result
 
 

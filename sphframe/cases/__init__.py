@@ -3,6 +3,7 @@
 from sphframe.cases.case import Case, Guards, Parameter, parameters_of
 from sphframe.cases.checks import CaseWarning, check_case
 from sphframe.cases.custom import Custom
+from sphframe.cases.exact import ExactCase
 from sphframe.cases.load import load_case, read_toml
 from sphframe.cases.parameters import Component, Derived, downward_gravity, quantity, with_default, written
 from sphframe.cases.scene import Diagnostic, Gauge, Probe, Scene, WallPart
@@ -15,6 +16,7 @@ __all__ = [
     "Custom",
     "Derived",
     "Diagnostic",
+    "ExactCase",
     "Fields",
     "Gauge",
     "Guards",

@@ -86,6 +86,10 @@ class Case(BaseModel, ABC):
     artificial_viscosity: float = quantity(0.02, "1", "coefficient alpha of the artificial viscosity", ge=0)
     kinematic_viscosity: float = quantity(0.0, "m2 s-1", "laminar viscosity of the fluid", ge=0)
     viscosity_model: Literal["morris", "monaghan-gingold"] = quantity("morris", "1", "form of the laminar viscosity")
+    shifting: float = quantity(0.0, "1", "coefficient of particle shifting; 0: none, 1: as published", ge=0, le=2)
+    tensile_control: Literal["off", "on"] = quantity(
+        "off", "1", "whether pairs do not attract where the pressure is negative and no free surface is near"
+    )
     slip: Literal["free", "no"] = quantity("free", "1", "slip condition at the walls")
     hydrostatic_lift: Literal["balanced", "mirror"] = quantity(
         "balanced", "1", "how the hydrostatic pressure difference to the ghost is added"

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, model_serializer, model_validator
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, model_serializer, model_validator
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
@@ -56,15 +56,20 @@ def quantity(default: Any, unit: str, description: str, **bounds: Any) -> Any:
     return Field(default, description=description, json_schema_extra={"unit": unit}, **bounds)
 
 
-def downward_gravity() -> Any:
+def downward_gravity(default: float = 9.81) -> Any:
     """Declare ``gravity`` as a number, for a case that is drawn for gravity along the last axis."""
-    return quantity(9.81, "m s-2", "acceleration of gravity, downwards along the last axis", ge=0)
+    return quantity(default, "m s-2", "acceleration of gravity, downwards along the last axis", ge=0)
 
 
 def with_default(model: type[BaseModel], name: str, default: Any) -> Any:
     """Declare again the parameter ``name`` of ``model`` with another default: same unit, meaning and bounds."""
     info = model.model_fields[name]
-    bounds = {key: value for bound in info.metadata for key, value in asdict(bound).items()}
+    bounds = {
+        key: value
+        for bound in info.metadata
+        if not isinstance(bound, Discriminator)
+        for key, value in asdict(bound).items()
+    }
     return quantity(default, unit_of(info), info.description or "", **bounds)
 
 

@@ -85,5 +85,7 @@ class Scene:
     """the bodies that carry walls, by the name that the walls refer to"""
     initial_pressure: Callable[[Array], Array] | None = None
     """p(position (n, dim)) -> (n,), Pa; None is the compressible rest state below the still water level"""
+    initial_velocity: Callable[[Array], Array] | None = None
+    """u(position (n, dim)) -> (n, dim), m/s; None is the velocity of each region, by default zero"""
     diagnostics: tuple[Diagnostic, ...] = ()
     wall_parts: tuple[WallPart, ...] = ()

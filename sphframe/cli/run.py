@@ -119,8 +119,10 @@ def _table(case: Case, figures: Mapping[str, Any]) -> Table:
     if arrival is not None:
         table.add_row("front arrival", f"{arrival['time']:.4g} s, t sqrt(g/H) = {arrival['dimensionless']:.3f}")
     for probe, peak in figures["peaks"].items():
-        scaled = f", {peak['dimensionless_pressure']:.3f} rho g H" if case.gravity else ""
+        scaled = f", {peak['dimensionless_pressure']:.3f} rho g H" if case.weight else ""
         table.add_row(f"peak at {probe}", f"{peak['pressure']:.4g} Pa{scaled} at {peak['time']:.4g} s")
+    for name, error in figures.get("errors", {}).items():
+        table.add_row(f"error of {name.replace('_', ' ')}", f"{100 * error:.3g} %")
     table.add_row("total energy", f"at most {100 * figures['energy_excess']:+.2f} % above its initial value")
     if figures["particles_outside"]:
         table.add_row("behind walls", f"up to {figures['particles_outside']} particles")

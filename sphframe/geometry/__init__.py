@@ -47,7 +47,7 @@ from sphframe.geometry.shapes import (
     Union,
 )
 from sphframe.geometry.solids import solid_of, solid_within
-from sphframe.geometry.walls import BoxWall, PolygonWall, Wall, wall_lines
+from sphframe.geometry.walls import BoxWall, CircleWall, PolygonWall, Wall, wall_lines
 
 __all__ = [
     "SHAPES",
@@ -58,6 +58,7 @@ __all__ = [
     "BoxWall",
     "Circle",
     "CircleRegion",
+    "CircleWall",
     "Curve",
     "CurveRegion",
     "Cylinder",

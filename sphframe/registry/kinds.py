@@ -69,6 +69,23 @@ DISTRIBUTIONS = {
     ("rigid_bodies", "regular-wave-paddle"): "sphframe-waves",
     ("cases", "solitary-wave-fixed-wall"): "sphframe-waves",
     ("cases", "solitary-wave-movable-wall"): "sphframe-waves",
+    ("rigid_bodies", "oscillating"): "sphframe-flows",
+    ("rigid_bodies", "spinning"): "sphframe-flows",
+    ("body_forces", "rotating-frame"): "sphframe-flows",
+    ("body_forces", "surge"): "sphframe-flows",
+    **{
+        ("cases", name): "sphframe-flows"
+        for name in (
+            "hydrostatic-wedge",
+            "jet-on-plate",
+            "lid-driven-cavity",
+            "oscillating-cylinder",
+            "rotating-bucket",
+            "sloshing-tank",
+            "standing-wave",
+            "taylor-couette",
+        )
+    },
     ("studies", "huang2019"): "sphframe-huang2019",
 }
 """the distribution to install for the name of a component of this project that is missing"""

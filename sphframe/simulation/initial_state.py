@@ -23,6 +23,7 @@ from sphframe.simulation.initial_walls import hydrostatic_densities, initial_bou
 from sphframe.simulation.light_bodies import check_weights
 from sphframe.simulation.rate_loops import RateLoops
 from sphframe.simulation.rest_state import pressure_at_depth, still_levels
+from sphframe.simulation.shifting import Shifting
 from sphframe.simulation.system import FluidSystem
 
 SKIN = 0.1
@@ -100,26 +101,13 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
         sight=boundary.sight,
         periods=boundary.periods,
     )
-    if scene.initial_pressure is not None:
-        pressure = scene.initial_pressure(position)
-    else:
-        regions = [position[members == index] for index in range(len(scene.fluid))]
-        levels = still_levels(scene, regions, spacing, boundary.groups, case.upward)
-        depth = levels[members] - position @ case.upward
-        pressure = pressure_at_depth(
-            depth,
-            components.parts["DENSITY"],
-            parameters.reference_density,
-            parameters.sound_speed,
-            float(np.linalg.norm(case.pressing_gravity)),
-        )
-        for index, region in enumerate(scene.fluid):
-            if region.pressure is not None:
-                pressure[members == index] = region.pressure
+    pressure = _initial_pressure(case, scene, components, parameters, boundary, position, members)
     rows = _initial_rows(position, start.volume, pressure, boundary, components, parameters)
     for index, region in enumerate(scene.fluid):
         if region.velocity is not None:
             rows[: len(position)][members == index, Columns.of(dim).velocity] = region.velocity
+    if scene.initial_velocity is not None:
+        rows[: len(position), Columns.of(dim).velocity] = scene.initial_velocity(position)
     if components.walls.rate is not None:
         boundary.wall_state[:] = hydrostatic_densities(boundary, position, pressure, components, parameters)
     contacts = _contacts(scene, boundary, position, spacing, parameters)
@@ -127,15 +115,45 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     loops = RateLoops(
         parts, components.compiled_kernel, components.walls, attracts=case.tension != "none",
         images=components.wall_treatment.geometry is WallGeometry.IMAGES,
+        shifting=Shifting.of_case(case, components.wall_treatment, parts),
     )  # fmt: skip
     states = WallStates(boundary, components.walls.rate, components.parts)
     filling = initial_filling(case, components)
-    force = components.body_force
-    system = FluidSystem(rows, boundary, filling, lists, loops, states, parts, parameters, contacts, force)
+    system = FluidSystem(
+        rows, boundary, filling, lists, loops, states, parts, parameters, contacts, components.body_force
+    )
     system.move_walls(0.0)
     system.find_neighbours()
     system.evaluate(0.0)
     return system
+
+
+def _initial_pressure(
+    case: Case,
+    scene: Scene,
+    components: Components,
+    parameters: LoopParameters,
+    boundary: Boundary,
+    position: Array,
+    members: IntArray,
+) -> Array:
+    """Return the pressure (n,) of the fluid at the start, Pa, at ``position`` in the regions ``members`` (n,)."""
+    if scene.initial_pressure is not None:
+        return scene.initial_pressure(position)
+    regions = [position[members == index] for index in range(len(scene.fluid))]
+    levels = still_levels(scene, regions, case.particle_spacing, boundary.groups, case.upward)
+    depth = levels[members] - position @ case.upward
+    pressure = pressure_at_depth(
+        depth,
+        components.parts["DENSITY"],
+        parameters.reference_density,
+        parameters.sound_speed,
+        float(np.linalg.norm(case.pressing_gravity)),
+    )
+    for index, region in enumerate(scene.fluid):
+        if region.pressure is not None:
+            pressure[members == index] = region.pressure
+    return pressure
 
 
 def _contacts(

@@ -20,6 +20,7 @@ from sphframe.physics import (
     wall_reaction,
     wall_sums,
 )
+from sphframe.simulation.shifting import Shifting
 
 
 class RateLoops:
@@ -27,12 +28,20 @@ class RateLoops:
 
     Where the treatment leaves ghosts as they were assigned, one loop sums over fluid and ghosts. Else a second one
     sums over the ghosts. ``attracts``: whether a pair of fluid and ghost may attract; ``images``: whether images of
-    the fluid take the place of ghosts.
+    the fluid take the place of ghosts. ``shifting`` adds its control of the tensile instability to the accelerations.
     """
 
     def __init__(
-        self, parts: Mapping[str, Any], kernel: CompiledKernel, walls: WallParts, *, attracts: bool, images: bool
+        self,
+        parts: Mapping[str, Any],
+        kernel: CompiledKernel,
+        walls: WallParts,
+        *,
+        attracts: bool,
+        images: bool,
+        shifting: Shifting | None = None,
     ) -> None:
+        self.shifting = shifting
         own = walls.seen, walls.force, walls.surface
         as_assigned = own == (None, None, None) and walls.friction and attracts and not walls.own_viscous_velocity
         as_assigned = as_assigned and not images
@@ -77,6 +86,8 @@ class RateLoops:
         self._fluid[continuity](rows, *near, parameters, gradient, rates)
         if continuity in self._walls:
             self._walls[continuity](rows, *near, boundary.arrays, boundary.images, parameters, rates)
+        if self.shifting is not None and not continuity:
+            self.shifting.control(rows, lists, parameters, rates)
 
     def react(
         self,

@@ -72,17 +72,25 @@ class Simulation(Observation):
         began = clock.perf_counter()
         with self._adding_time_and_step():
             self.time_step = self._next_time_step(self._motion.speed)
-            if not self.system.neighbours_remain_valid(self._motion, 1.2 * self.time_step):
+            ahead = (1.2 + 0.5 * self.case.shifting) * self.time_step
+            if not self.system.neighbours_remain_valid(self._motion, ahead):
                 self.system.find_neighbours()
             self.between_steps = False
             with naming_component(self.case, running=True):
                 self.components.integrator.step(self.system, self.time, self.time_step)
+            self._shift(self._motion.speed, self.time_step)
             self.system.put_back()
             self.time = min(self.time + self.time_step, self.case.until)
             self.step += 1
             self._check()
             self.between_steps = True
         self.wall_clock += clock.perf_counter() - began
+
+    def _shift(self, speed: float, interval: float) -> None:
+        """Shift the particles after a step of ``interval``, s, if the case asks for it; ``speed``: the largest, m/s."""
+        system = self.system
+        if system.loops.shifting is not None:
+            system.loops.shifting.shift(system.rows, system.lists, system.parameters, speed, interval)
 
     def _next_time_step(self, speed: float) -> float:
         """Return the case's own time step, or that of the Courant number at the largest ``speed``, m/s."""

@@ -59,7 +59,7 @@ class FluidSystem(System):
         dim = boundary.dim
         self.boundary = boundary
         self.contacts = contacts
-        self._filling, self._loops, self.wall_states = filling, loops, wall_states
+        self._filling, self.loops, self.wall_states = filling, loops, wall_states
         self.parameters = parameters
         self.columns = Columns.of(dim)
         self.bodies = BodyStates(boundary.bodies, dim)
@@ -176,7 +176,7 @@ class FluidSystem(System):
         self.wall_states.evaluate(self.rows, self.lists, self.parameters)
 
     def _sum(self, *, continuity: bool) -> None:
-        self._loops(
+        self.loops(
             self.rows, self.lists, self.boundary, self.parameters, self.gradient, self.rates, continuity=continuity
         )
 
@@ -187,7 +187,7 @@ class FluidSystem(System):
 
     def react(self, walls: IntArray, shares: Shares, centres: Array, partial: Array, loads: Array) -> None:
         """Write the loads on the ``walls`` (g,) of the ghosts, see :class:`RateLoops`."""
-        self._loops.react(self.rows, self.lists, self.boundary, self.parameters, walls, shares, centres, partial, loads)
+        self.loops.react(self.rows, self.lists, self.boundary, self.parameters, walls, shares, centres, partial, loads)
 
     def references(self) -> Array:
         """Return the points (walls, dim) to which moments refer: the centre of the wall's body, or the origin, m."""

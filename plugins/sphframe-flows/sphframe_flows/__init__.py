@@ -1,0 +1,28 @@
+"""Flows with exact answers for sphframe, and the bodies and body forces that drive them."""
+
+from sphframe_flows.forces import RotatingFrame, Surge
+from sphframe_flows.hydrostatic_wedge import HydrostaticWedge
+from sphframe_flows.jet_on_plate import JetOnPlate
+from sphframe_flows.lid_driven_cavity import LidDrivenCavity
+from sphframe_flows.oscillating import Oscillating
+from sphframe_flows.oscillating_cylinder import OscillatingCylinder
+from sphframe_flows.rotating_bucket import RotatingBucket
+from sphframe_flows.sloshing_tank import SloshingTank
+from sphframe_flows.spinning import Spinning
+from sphframe_flows.standing_wave import StandingWave
+from sphframe_flows.taylor_couette import TaylorCouette
+
+__all__ = [
+    "HydrostaticWedge",
+    "JetOnPlate",
+    "LidDrivenCavity",
+    "Oscillating",
+    "OscillatingCylinder",
+    "RotatingBucket",
+    "RotatingFrame",
+    "SloshingTank",
+    "Spinning",
+    "StandingWave",
+    "Surge",
+    "TaylorCouette",
+]

@@ -1,0 +1,37 @@
+"""Small runs of the flows, beside their exact solutions."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from matplotlib.figure import Figure
+
+from sphframe import InputError, run
+from sphframe.analysis import summary
+
+COARSE: dict[str, tuple[dict[str, Any], dict[str, float]]] = {
+    "rotating-bucket": ({"particle_spacing": 0.03, "until": 0.4}, {"surface": 0.5}),
+    "hydrostatic-wedge": (
+        {"particle_spacing": 0.04, "until": 0.4, "tank_length": 1.2},
+        {"pressure": 0.02, "downward_force": 0.02, "horizontal_force": 0.03, "kinetic_energy": 1e-4},
+    ),
+    "oscillating-cylinder": ({"particle_spacing": 0.02, "until": 1.5}, {"added_mass_inner": 0.06}),
+}
+"""parameters of short runs, and limits of their errors"""
+
+
+@pytest.mark.parametrize("name", list(COARSE))
+def test_coarse_runs_agree_with_their_solutions(name: str, tmp_path: Path) -> None:
+    parameters, limits = COARSE[name]
+    result = run(name, output=tmp_path / "flow.nc", threads=1, guards={"filling": "report"}, **parameters)
+    dataset = result.dataset
+    found = summary(dataset)["errors"]
+    for error, limit in limits.items():
+        assert found[error] < limit, found
+    exact, measured = dataset.sph.exact, dataset.sph.measured
+    assert set(exact.data_vars) <= set(measured.data_vars)
+    assert isinstance(dataset.sph.plot(tmp_path / "flow.png"), Figure)
+    if name == "rotating-bucket":
+        for wrong in ({"angular_speed": 9.0}, {"particle_spacing": 0.2}):
+            with pytest.raises(InputError):
+                run(name, output=tmp_path / "wrong.nc", threads=1, **wrong)

@@ -1,0 +1,67 @@
+"""Analysis: a run beside the exact solution of its case."""
+
+import json
+import sys
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from sphframe.analysis.figures import tidy
+from sphframe.cases import ExactCase
+from sphframe.errors import InputError, PluginError
+from sphframe.registry import is_address, load
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+def exact_case(dataset: xr.Dataset) -> ExactCase | None:
+    """Return the case of a run with a frame and a sample, if it knows the exact solution; else None.
+
+    A case given as ``module:Class`` is found if its module has been imported: a file never makes sphframe import code.
+    """
+    if not dataset.sizes["time"] or not dataset.sizes["probe_time"]:
+        return None
+    name = dataset.attrs["case_name"]
+    if is_address(name):
+        module, _, attribute = name.partition(":")
+        model: Any = getattr(sys.modules.get(module), attribute, None)
+    else:
+        try:
+            model = load("cases", name)
+        except PluginError:  # it is not installed here
+            return None
+    if not (isinstance(model, type) and issubclass(model, ExactCase)):
+        return None
+    return model(**json.loads(dataset.attrs["case_parameters"]))
+
+
+def with_exact_solution(dataset: xr.Dataset) -> ExactCase:
+    """Return the case of a run, as above.
+
+    Raises
+    ------
+    InputError: it knows no exact solution, or the run has no frame or sample.
+    """
+    case = exact_case(dataset)
+    if case is None:
+        raise InputError(
+            f"the case {dataset.attrs['case_name']} has no exact solution, or its run has no frame or sample yet"
+        )
+    return case
+
+
+def draw_exact(axes: "list[Axes]", dataset: xr.Dataset, case: ExactCase) -> None:
+    """Draw each variable of the run as points and its exact solution as a line, one on each of ``axes``."""
+    exact, measured = case.exact(dataset), case.measured(dataset)
+    for panel, (name, value) in zip(axes, exact.data_vars.items(), strict=False):
+        (dim,) = value.dims
+        x, order = value[dim].values, np.argsort(value[dim].values, kind="stable")
+        panel.plot(x, measured[name].values, ".", markersize=2.5, label=case.wall_method)
+        panel.plot(x[order], value.values[order], color="black", linewidth=1.0, label="exact")
+        for set_label, array in ((panel.set_xlabel, value[dim]), (panel.set_ylabel, value)):
+            label, unit = array.attrs.get("long_name", str(array.name)), array.attrs.get("units", "1")
+            set_label(f"{label} ({unit})" if unit != "1" else label, fontsize=10)
+        panel.legend(fontsize=9, frameon=False)
+        tidy(panel)
