@@ -95,3 +95,60 @@ def test_water_thrown_at_a_solid_is_never_behind_it(tmp_path: Path, name: str) -
             assert depth_behind(mesh, position).max() < 0.005 * SPACING
     assert simulation.particles_outside() == 0
     assert np.sum(depth_behind(mesh, position) > -SPACING) > 30, "some are beside it"
+
+
+def with_body(mesh: Any, path: Path, size: tuple[float, float], depth: float, **body: Any) -> Simulation:
+    """A tank of the ``size``, with water around the ``mesh``, which is free to move."""
+    mesh.export(path)
+    tank = {**TANK, "upper": (*size, depth + 0.2)}
+    wall = {"shape": "mesh", "name": "solid", "file": str(path), "body": "solid"}
+    water = {"shape": "box", "lower": (0, 0, 0), "upper": (*size, depth)}
+    around = {"shape": "difference", "of": water, "minus": [{"shape": "mesh", "file": str(path)}]}
+    case = Custom(
+        dimension=3,
+        particle_spacing=SPACING,
+        until=1.0,
+        walls=[tank, wall],
+        fluid=[around],
+        bodies={"solid": {"name": "free", **body}},
+    )
+    return Simulation(load_case(case), threads=1)
+
+
+@pytest.mark.slow
+def test_a_floating_cube_that_is_turned_rights_itself(tmp_path: Path) -> None:
+    edge, depth, turned = 0.2, 0.25, np.radians(10)
+    mesh = trimesh.creation.box((edge, edge, edge))
+    mesh.apply_transform(trimesh.transformations.rotation_matrix(turned, [0, 1, 0]))
+    mesh.apply_translation((0.2, 0.2, depth))  # half of it is under water, as its mass asks
+    mass = 1000.0 * edge**3 / 2
+    low = (0.2 - 0.06 * np.sin(turned), 0.2, depth - 0.06 * np.cos(turned))  # its ballast is deep
+    inertia = (mass * edge**2 / 6,) * 3
+    simulation = with_body(mesh, tmp_path / "cube.stl", (0.4, 0.4), depth, mass=mass, inertia=inertia, centre=low)
+    tilts = []
+    while simulation.time < 0.25:
+        simulation.advance()
+        motion = simulation.body_motions()["solid"]
+        x, y, rise, rx, ry, rz = motion.position
+        tilts.append(turned + ry)
+        middle = low[2] + rise + 0.06 * np.cos(tilts[-1])
+        assert abs(depth - middle) < 0.5 * SPACING, "the draught is that of Archimedes"
+        assert np.abs([x, y, rx, rz]).max() < 0.02
+    crossing = simulation.time * np.argmax(np.array(tilts) < 0.0) / len(tilts)
+    assert 0.15 < crossing < 0.24
+    assert np.radians(-10) < min(tilts) < np.radians(-1)
+    assert simulation.particles_outside() == 0
+
+
+@pytest.mark.slow
+def test_a_heavy_sphere_sinks_to_the_bed_and_stays(tmp_path: Path) -> None:
+    mesh, radius = trimesh.creation.icosphere(3, 0.07), 0.07
+    mesh.apply_translation((0.15, 0.15, radius + 0.03))
+    simulation = with_body(mesh, tmp_path / "sphere.stl", (0.3, 0.3), 0.25, density=2500.0)
+    heights = []
+    while simulation.time < 0.25:
+        simulation.advance()
+        heights.append(0.03 + simulation.body_motions()["solid"].position[2])
+    assert min(heights) > -0.1 * SPACING
+    assert np.abs(heights[-50:]).max() < 0.1 * SPACING
+    assert simulation.particles_outside() == 0
