@@ -208,3 +208,46 @@ def test_added_mass_of_a_cylinder_in_an_annulus() -> None:
     about_origin = system.loads[:, 2].sum() + moments(arms, system.loads[:, :2]).sum()
     torque = moments(rows[:, columns.position], forces)
     assert torque.sum() == pytest.approx(-about_origin, abs=1e-11 * np.abs(torque).sum())
+
+
+class Drum(Case):
+    """A half-full drum of radius 0.15 m that turns about its axis with 4 rad/s, without slip."""
+
+    particle_spacing: float = 0.01
+    until: float = 10.0
+    frame_interval: float = 1.0
+    probe_interval: float = 0.1
+    slip: Any = "no"
+
+    def scene(self) -> Scene:
+        disc = Circle(centre=(0, 0), radius=0.15)
+        above = PolygonRegion(points=((-1, 0), (1, 0), (1, 1), (-1, 1)))
+        return Scene(
+            walls=(CircleWall(name="drum", centre=(0, 0), radius=0.15, body="drum"),),
+            fluid=(DifferenceRegion(of=disc, minus=(above,)),),
+            depth=0.15,
+            domain=((-0.3, -0.3), (0.3, 0.3)),
+            bodies={"drum": Prescribed(lambda t: ((0, 0, 4 * t), (0, 0, 4.0), (0, 0, 0)))},
+        )
+
+
+def test_a_turning_drum_conserves_mass_and_angular_momentum() -> None:
+    simulation = Simulation(Drum(), threads=1)
+    system, columns, count = simulation.system, simulation.columns, simulation.fluid_count
+    mass = system.rows[:count, columns.mass].sum()
+    times, momenta, torques, farthest = [], [], [], 0.0
+    while simulation.time < 0.3:
+        simulation.advance()
+        rows = system.rows[:count]
+        position, momentum = rows[:, columns.position], rows[:, columns.mass, None] * rows[:, columns.velocity]
+        weight = np.array([[0.0, -9.81]]) * rows[:, columns.mass, None]
+        times.append(simulation.time)
+        farthest = max(farthest, np.hypot(*position.T).max())
+        momenta.append(moments(position, momentum).sum())
+        torques.append(moments(position, weight).sum() - simulation.wall_loads()["drum"].moment[0])
+    assert farthest < 0.15 + 0.02 * 0.01, "nothing is behind the wall, up to its chords"
+    assert simulation.fluid_count == count
+    assert system.rows[:count, columns.mass].sum() == pytest.approx(mass, rel=1e-14)
+    gained = momenta[-1] - momenta[0]
+    assert gained > 0.02 * mass * 0.15**2 * 4.0, "the drum drags the water along"
+    assert gained == pytest.approx(np.trapezoid(torques, times), rel=0.02)
