@@ -83,6 +83,7 @@ DISTRIBUTIONS = {
             "rotating-bucket",
             "sloshing-tank",
             "standing-wave",
+            "stokes-plate",
             "taylor-couette",
         )
     },

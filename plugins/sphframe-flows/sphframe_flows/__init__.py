@@ -10,6 +10,7 @@ from sphframe_flows.rotating_bucket import RotatingBucket
 from sphframe_flows.sloshing_tank import SloshingTank
 from sphframe_flows.spinning import Spinning
 from sphframe_flows.standing_wave import StandingWave
+from sphframe_flows.stokes_plate import StokesPlate
 from sphframe_flows.taylor_couette import TaylorCouette
 
 __all__ = [
@@ -23,6 +24,7 @@ __all__ = [
     "SloshingTank",
     "Spinning",
     "StandingWave",
+    "StokesPlate",
     "Surge",
     "TaylorCouette",
 ]

@@ -15,6 +15,7 @@ COARSE: dict[str, tuple[dict[str, Any], dict[str, float]]] = {
         {"particle_spacing": 0.04, "until": 0.4, "tank_length": 1.2},
         {"pressure": 0.02, "downward_force": 0.02, "horizontal_force": 0.03, "kinetic_energy": 1e-4},
     ),
+    "stokes-plate": ({"particle_spacing": 0.1, "until": 0.8, "kinematic_viscosity": 0.2}, {"velocity": 0.05}),
     "oscillating-cylinder": ({"particle_spacing": 0.02, "until": 1.5}, {"added_mass_inner": 0.06}),
 }
 """parameters of short runs, and limits of their errors"""

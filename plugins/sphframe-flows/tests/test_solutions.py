@@ -12,6 +12,7 @@ from sphframe_flows import (
     RotatingFrame,
     SloshingTank,
     Spinning,
+    StokesPlate,
     Surge,
     TaylorCouette,
 )
@@ -85,6 +86,17 @@ def test_velocities_at_points_are_exact_for_linear_fields() -> None:
     points = np.array([[0.5, 0.5], [0.02, 0.4]])
     expected = np.array([0.3, -0.2]) + points @ [[1.0, 2.0], [-0.5, 0.7]]
     np.testing.assert_allclose(mean_velocity(dataset, points, 1), expected, rtol=1e-9)
+
+
+def test_plates_drive_the_fluid_as_the_equation_has_it() -> None:
+    """u_t = nu u_yy - X'', zero at the plates, by differences."""
+    case = StokesPlate()
+    y, t, step = np.linspace(0.0, 1.0, 2001), 0.7, 1e-5
+    now = case.velocity(y, t)
+    rate = (case.velocity(y, t + step) - case.velocity(y, t - step)) / (2.0 * step)
+    diffusion = 0.05 * (now[2:] - 2.0 * now[1:-1] + now[:-2]) / (y[1] - y[0]) ** 2
+    np.testing.assert_allclose(rate[1:-1], diffusion - 0.1 * 25.0 * math.cos(5.0 * t), atol=1e-4)
+    assert np.abs(now[[0, -1]]).max() < 1e-12
 
 
 def test_taylor_couette_has_the_speeds_of_its_walls() -> None:
