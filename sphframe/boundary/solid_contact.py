@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from sphframe.arrays import Array, IntArray
+from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.geometry import WallGroup, to_body_frame, to_world, turning_velocities
 from sphframe.geometry.box_walls import BoxWalls
 from sphframe.geometry.solid_walls import SolidWalls
@@ -37,10 +37,12 @@ class SolidContacts:
         """Whether any wall is given by triangles."""
         return bool(self._groups)
 
-    def put_back(self, rows: Array, marked: IntArray, motions: Sequence[Motion]) -> int:
-        """Put the ``marked`` particles that are behind walls back on them, in ``rows``; return their number."""
-        columns, count = Columns.of(3), 0
-        for group, body in self._groups if len(marked) else ():
+    def put_back(self, rows: Array, may_be_behind: BoolArray, motions: Sequence[Motion]) -> int:
+        """Put particles back that are behind walls, of those that ``may_be_behind`` (n,); return their number."""
+        if not self._groups or not np.any(may_be_behind):
+            return 0
+        columns, count, marked = Columns.of(3), 0, np.flatnonzero(may_be_behind)
+        for group, body in self._groups:
             points = rows[marked, columns.position]
             at, centre = (motions[body].position, self._centres[body]) if body >= 0 else (np.zeros(6), np.zeros(3))
             behind, foot = group.feet_behind(to_body_frame(points, at, centre) if body >= 0 else points)

@@ -206,7 +206,7 @@ class FluidSystem(System):
             self.rows, self.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares,
             boundary.passable, self.columns, self.parameters, boundary.foot, boundary.normal, boundary.velocity, marked,
         )  # fmt: skip
-        return int(count) + solids.put_back(self.rows, np.flatnonzero(marked), self.bodies.motions)
+        return int(count) + solids.put_back(self.rows, marked, self.bodies.motions)
 
     # what integrators are made of
 
