@@ -15,11 +15,12 @@ from sphframe.benchmark.peak import Peak, measure_peak
 from sphframe.benchmark.start_up import StartUp, measure_start_up
 from sphframe.benchmark.steps import State, StepCost, measure_steps
 from sphframe.benchmark.timing import Spread
+from sphframe.benchmark.walls import WallCost, measure_walls
 from sphframe.errors import InputError
 
 numba: Any = typed_numba  # its settings have no types
 
-SECTIONS = ("peak", "rest", "developed", "3d", "methods", "memory", "start-up")
+SECTIONS = ("peak", "rest", "developed", "3d", "methods", "walls", "memory", "start-up")
 """sections that can be chosen"""
 _FLOWS: tuple[tuple[str, int, State], ...] = (("rest", 2, "rest"), ("developed", 2, "developed"), ("3d", 3, "rest"))
 FORMAT = 1
@@ -37,6 +38,7 @@ class BenchmarkReport:
     peak: Peak | None = None
     steps: list[StepCost] = field(default_factory=list)
     methods: list[MethodCost] = field(default_factory=list)
+    walls: list[WallCost] = field(default_factory=list)
     memory: list[MemoryCost] = field(default_factory=list)
     start_up: StartUp | None = None
 
@@ -121,6 +123,12 @@ def bench(
             for cost in measure_steps(count, dim, state, counts, repeats, tell)
         ]
         methods = [cost for count in particles if "methods" in wanted for cost in measure_methods(count, repeats, tell)]
+        walls = [
+            cost
+            for count in particles
+            if "walls" in wanted and (count <= _MOST_DEVELOPED or "walls" in only)
+            for cost in measure_walls(count, repeats, tell)
+        ]
         memory = []
         for count in particles if "memory" in wanted else ():
             for dim in (2, 3):
@@ -129,4 +137,4 @@ def bench(
         start_up = measure_start_up(repeats, tell) if "start-up" in wanted else None
     finally:
         numba.set_num_threads(before)
-    return BenchmarkReport(_machine(), tuple(particles), tuple(counts), peak, steps, methods, memory, start_up)
+    return BenchmarkReport(_machine(), tuple(particles), tuple(counts), peak, steps, methods, walls, memory, start_up)

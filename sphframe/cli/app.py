@@ -342,7 +342,8 @@ def _bench(
     only: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="SECTION", help="peak, rest, developed, 3d, methods, memory or start-up; repeatable, or with commas"
+            metavar="SECTION",
+            help="peak, rest, developed, 3d, methods, walls, memory or start-up; repeatable, or with commas",
         ),
     ] = None,
 ) -> None:

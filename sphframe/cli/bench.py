@@ -86,6 +86,8 @@ def _tables(report: BenchmarkReport) -> Iterator[Table]:
         yield _single_parts(report)
     if report.methods:
         yield _methods(report)
+    if report.walls:
+        yield _walls(report)
     if report.memory:
         yield _memory(report)
     if report.start_up is not None:
@@ -137,6 +139,19 @@ def _methods(report: BenchmarkReport) -> Table:
         table.add_row(
             cost.method, f"{cost.particles:,}", f"{cost.points:,}", f"{cost.neighbours:.1f}", _text(cost.point, 1e6),
             _text(cost.fill, 1e3), _text(cost.step, 1e3), _text(cost.share, 100.0),
+        )  # fmt: skip
+    return table
+
+
+def _walls(report: BenchmarkReport) -> Table:
+    table = _table(
+        "Wall treatments, developed dam break, all rates once, one thread, processor time",
+        *("treatment", "particles", "wall particles", "rates, ms", "over fixed ghosts"),
+    )
+    for cost in report.walls:
+        table.add_row(
+            cost.treatment, f"{cost.particles:,}", f"{cost.wall_particles:,}", _text(cost.evaluation, 1e3),
+            _text(cost.ratio),
         )  # fmt: skip
     return table
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from sphframe import Simulation
-from sphframe.benchmark import SECTIONS, BenchmarkReport, bench, check_request, methods, start_up, steps
+from sphframe.benchmark import SECTIONS, BenchmarkReport, bench, check_request, methods, start_up, steps, walls
 from sphframe.benchmark.flow import DEVELOPED, dam_break, run_to_developed_flow
 from sphframe.benchmark.fresh import Fresh, run_fresh
 from sphframe.benchmark.memory import array_bytes, measure_here
@@ -19,6 +19,7 @@ from sphframe.benchmark.peak import _multiply_add, _read, measure_peak
 from sphframe.benchmark.reference import BareLoops
 from sphframe.benchmark.stopwatch import PARTS, Stopwatch, watch_steps
 from sphframe.benchmark.timing import Spread, loops_for, seconds
+from sphframe.benchmark.walls import measure_walls
 from sphframe.errors import InputError, SimulationError
 from sphframe.registry import available
 
@@ -179,7 +180,8 @@ def test_all_windows_make_the_same_steps(monkeypatch: pytest.MonkeyPatch) -> Non
 def test_a_report_is_json(report: BenchmarkReport) -> None:
     data = json.loads(json.dumps(report.as_data()))
     assert data["format"] == 1
-    assert set(data) == {"format", "machine", "particles", "threads", "peak", "steps", "methods", "memory", "start_up"}
+    parts = {"peak", "steps", "methods", "walls", "memory", "start_up"}
+    assert set(data) == {"format", "machine", "particles", "threads", *parts}
     assert {"processor", "cores", "threading layer", "numba", "python"} <= set(data["machine"])
     (cost,) = data["steps"]
     assert (cost["state"], cost["dimension"], cost["threads"]) == ("rest", 2, 1)
@@ -188,7 +190,7 @@ def test_a_report_is_json(report: BenchmarkReport) -> None:
     assert whole["min"] <= whole["median"] <= whole["max"]
     assert sorted(whole["samples"]) == [whole["min"], whole["median"], whole["max"]]
     assert cost["rate"]["median"] == pytest.approx(cost["particles"] / whole["median"])
-    assert (data["methods"], data["memory"], data["start_up"]) == ([], [], None)
+    assert (data["methods"], data["walls"], data["memory"], data["start_up"]) == ([], [], [], None)
 
 
 def test_all_installed_methods_that_load_are_measured(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -206,6 +208,16 @@ def test_all_installed_methods_that_load_are_measured(monkeypatch: pytest.Monkey
             pytest.approx(2.0 * fill / step) for fill, step in zip(cost.fill.samples, cost.step.samples, strict=True)
         )
     assert told
+
+
+def test_wall_treatments_are_compared_with_fixed_ghosts_on_the_same_fluid(monkeypatch: pytest.MonkeyPatch) -> None:
+    two = [entry for entry in available("wall_treatments") if entry.name in ("fixed-ghosts", "monaghan-kajtar-2009")]
+    monkeypatch.setattr(walls, "check", lambda kind: two)
+    ghosts, row = measure_walls(TINY, 2, lambda text, part: None)
+    assert (ghosts.treatment, row.treatment) == tuple(entry.name for entry in two)
+    assert ghosts.ratio.samples == (1.0, 1.0)
+    assert row.ratio.samples == row.evaluation.over(ghosts.evaluation).samples
+    assert row.wall_particles < ghosts.wall_particles
 
 
 # memory

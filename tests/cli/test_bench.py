@@ -13,6 +13,7 @@ from sphframe.benchmark.peak import Peak
 from sphframe.benchmark.report import BenchmarkReport
 from sphframe.benchmark.start_up import StartUp
 from sphframe.benchmark.timing import Spread
+from sphframe.benchmark.walls import WallCost
 from sphframe.cli import bench as command
 from sphframe.cli.app import app
 
@@ -41,6 +42,7 @@ def test_every_table_is_printed(monkeypatch: pytest.MonkeyPatch) -> None:
         Peak(two, two),
         benchmark([300], [1], ["rest"], repeats=1).steps,
         [MethodCost("nearest", 300, 10, 20.0, two, two, two.times(1e-6), two)],
+        [WallCost("mirrors", 300, 50, two, two)],
         [MemoryCost(2, 300, 100, {"lists": 111.0, "system": 222.0}, 333.0, None)],
         StartUp(two, two, 12.5, two, two),
     )
@@ -55,5 +57,5 @@ def test_every_table_is_printed(monkeypatch: pytest.MonkeyPatch) -> None:
     result = CliRunner().invoke(app, ["bench", "--threads", "1", "--only", "rest,memory", "--only", "3d"])
     assert result.exit_code == 0, result.output
     assert asked == [([45_000], [1], ["rest", "memory", "3d"])]
-    for text in ("abacus", "nearest", "0.5 (0.25-0.75)", "333", "unknown", "12.5", "import sphframe"):
+    for text in ("abacus", "nearest", "mirrors", "0.5 (0.25-0.75)", "333", "unknown", "12.5", "import sphframe"):
         assert text in result.stdout
