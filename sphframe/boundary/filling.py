@@ -53,6 +53,7 @@ class Filling:
             "BOUNDED": tension != "free",
             "LOWEST": lowest_pressure if tension == "bounded" else 0.0,
             "ASSIGN": walls.assign or _at_rest,
+            "VELOCITIES": walls.uses_velocity,
         }
         if interpolator is not None:
             point = interpolator.traits.evaluation_point

@@ -11,8 +11,9 @@ the tension policy of the case applies (p_0 is the case's ``lowest_pressure``)::
 
 with the smooth step S(t) = 3 t^2 - 2 t^3 of 0 <= t <= 1. phi_0 is the value of the sum where fluid fills the domain. On
 a level free surface phi = 1/2, whatever the distance from the wall, so that no ghost acts on fluid from above the
-surface. A pair of fluid and ghost then acts only where p_i + p_G > 0: it does not attract, has no viscosity, and a gap
-that opens does not lower the density, so that the fluid may leave the wall (:mod:`sphframe.physics.wall_pair`).
+surface. A pair of fluid and ghost then acts only where p_i > 0 and p_i + p_G > 0: it does not attract, has no
+viscosity, and a gap that opens does not lower the density, so that the fluid may leave the wall
+(:mod:`sphframe.physics.wall_pair`).
 
 The density follows from the inverse equation of state.
 """
@@ -35,6 +36,8 @@ from sphframe.interfaces.traits import DRY, OK
 INTERPOLATES = True
 EXTRAPOLATED = DIRECTED = SEPARATE = False
 VELOCITY_WEIGHTS = VELOCITY_FALLBACK = WEIGHTS
+VELOCITIES = True
+"""whether the treatment uses the fluid's velocity; else those of EXTRAPOLATED weights are not computed again"""
 BOUNDED, FADES = True, False
 LOWEST = 0.0
 """lowest pressure of a ghost where it is BOUNDED, Pa"""
@@ -151,7 +154,8 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                                 extrapolated += weights[k] * rows[members[k], COLUMNS.pressure]
                             for d in range(DIM):
                                 lift[d] = 0.0
-                            WEIGHTS(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
+                            if VELOCITIES:
+                                WEIGHTS(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
                 statuses[g] = status
 
                 total = 0.0

@@ -190,6 +190,8 @@ class WallParts:
     divides_by_gamma: whether the sums over fluid and edges are divided by gamma.
     rate: ``rate(neighbours, wall, constants) -> d(state)/dt``, once per wall particle and evaluation. The state is a
         density; it starts in hydrostatic equilibrium, is advanced by the integrator, and is part of checkpoints.
+    uses_velocity: whether ``assign`` uses the fluid's velocity. Without it, a method that extrapolates gives only the
+        pressure, where it succeeds.
     own_viscous_velocity: whether ``assign`` writes a velocity for the viscosity; else it is that for the continuity.
     friction: whether the viscosity between fluid and wall particles acts; with free slip, most treatments leave it out.
     conjugate: whether the velocities are then corrected as in :mod:`sphframe.boundary.conjugate`.
@@ -201,6 +203,7 @@ class WallParts:
     surface: SurfaceFunction | None = None
     divides_by_gamma: bool = False
     rate: RateFunction | None = None
+    uses_velocity: bool = True
     own_viscous_velocity: bool = False
     friction: bool = True
     conjugate: bool = False

@@ -71,6 +71,7 @@ class MDBC(BoundaryInterpolator):
                 matrix[k] = 0.0
             for j in range(n):
                 slope = gradient_scale * kernel_gradient(distances[j] * per_h)
+                out[j] = slope
                 for a in range(dim):
                     basis[a] = offsets[j, a] * per_h
                 for a in range(terms):
@@ -105,8 +106,7 @@ class MDBC(BoundaryInterpolator):
                 along = 0.0
                 for a in range(dim):
                     along += solution[a] * (offsets[j, a] * per_h)
-                slope = gradient_scale * kernel_gradient(distances[j] * per_h)
-                out[j] = volumes[j] * (solution[dim] * kernel_values[j] + slope * along)
+                out[j] = volumes[j] * (solution[dim] * kernel_values[j] + out[j] * along)
                 absolute_sum += abs(out[j])
             if not absolute_sum <= amplification:
                 return SINGULAR

@@ -77,7 +77,7 @@ class MDBC2022(WallTreatment):
                     pressure += wall.force[d] * (fluid.total * wall.lift[d] - fluid.offset[d])
             return pressure, 1.0
 
-        return WallParts(assign=assign, friction=context.no_slip)
+        return WallParts(assign=assign, uses_velocity=False, friction=context.no_slip)
 
 
 @dataclass(frozen=True)
