@@ -1,6 +1,6 @@
 """No slip by the ratio of the distances from the wall, Takeda et al. (1994) and Morris et al. (1997), for sphframe."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from sphframe import (
@@ -79,4 +79,4 @@ class DistanceRatio(WallTreatment):
                 return Seen(pressure_sum, u, v, w, u, v, w)
             return Seen(pressure_sum, wall.u, wall.v, wall.w, u, v, w)
 
-        return WallParts(assign=FixedGhosts().parts(context).assign, seen=seen, friction=context.no_slip)
+        return replace(FixedGhosts().parts(context), seen=seen, friction=context.no_slip)
