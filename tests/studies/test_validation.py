@@ -39,3 +39,15 @@ def test_a_validation_case_makes_its_tables_and_pictures(
             computed.append(float(f"{fallback_share(run):.6g}"))
     assert set(shares) <= set(computed)
     assert max(shares) > 0.0 or case == "solitary_wave"
+
+
+def test_wall_treatments_are_compared(cluster: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(ROOT)
+    study = importlib.import_module("validation.wall_treatments.run").WallTreatments()
+    report = reproduce(study, output=tmp_path, only=["tank"], quick=True, scheduler=cluster)
+    assert report.read_text().count("<img") == 1
+    with (tmp_path / "tables" / "key_figures_tank.csv").open(newline="") as file:
+        still, moving = csv.DictReader(file)
+    assert (still["treatment"], moving["treatment"]) == ("fixed-ghosts", "lennard-jones")
+    fastest = "fastest particle (% of sqrt(g H))"
+    assert float(still[fastest]) < 1.0 < 100.0 < float(moving[fastest])
