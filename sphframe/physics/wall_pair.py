@@ -35,8 +35,9 @@ def wall_side(rows, row, walls, g, columns):  # type: ignore[no-untyped-def]
 def make_seen(walls: WallParts, *, attracts: bool) -> SeenFunction:
     """Return what a pair sees: by the treatment's ``seen``, or what is assigned.
 
-    A pair that does not ``attract`` acts only where its pressure is positive. Else the fluid may leave the wall freely:
-    an opening gap does not lower the density, and there is no viscosity.
+    A pair that does not ``attract`` acts only where p_i and p_i + p_G are positive. Else the fluid may leave the wall
+    freely: an opening gap does not lower the density, and there is no viscosity. p_i counts, too, since the pressure
+    that is extrapolated to the wall from a film in free fall is amplified noise.
     """
     own_viscous_velocity, friction = walls.own_viscous_velocity, walls.friction
 
@@ -53,7 +54,7 @@ def make_seen(walls: WallParts, *, attracts: bool) -> SeenFunction:
 
     def limited(fluid: FluidSide, wall: WallSide, separation: Separation, constants: Any) -> Seen:
         found = chosen(fluid, wall, separation, constants)
-        acts = attracts or found.pressure_sum > 0.0
+        acts = attracts or min(fluid.pressure, found.pressure_sum) > 0.0
         opening = (found.u - fluid.u) * separation.x + (found.v - fluid.v) * separation.y
         free = not acts and opening + (found.w - fluid.w) * separation.z > 0.0
         rubs = acts and friction
@@ -77,7 +78,7 @@ def make_surface(surface: SurfaceFunction, *, attracts: bool) -> SurfaceFunction
 
     def limited(fluid: FluidSide, wall: WallSide, edge: Edge, constants: Any) -> tuple[float, float, float]:
         fx, fy, divergence = surface(fluid, wall, edge, constants)
-        if fx * wall.nx + fy * wall.ny > 0.0:
+        if fx * wall.nx + fy * wall.ny > 0.0 or fluid.pressure <= 0.0:
             return 0.0, 0.0, min(divergence, 0.0)
         return fx, fy, divergence
 

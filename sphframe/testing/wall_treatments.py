@@ -201,8 +201,13 @@ def _check_residual(treatment: WallTreatment, name: str, exact: float = 0.0) -> 
 
 
 def check_constant(treatment: WallTreatment) -> None:
-    """A uniform pressure exerts no force."""
+    """A uniform pressure exerts no force, nor does uniform suction."""
     _check_residual(treatment, "uniform")
+    suction = _difference(_box(treatment, gravity=0.0), "v", pressure=lambda x: np.full(len(x), -1000.0))
+    if not np.all(np.abs(suction * _SPACING * _DENSITY / 2000.0) <= _ROUND_OFF):
+        raise BrokenPromiseError(
+            f"{title(treatment)}: suction of 1000 Pa accelerates the first layers by {suction} m/s^2"
+        )
 
 
 def check_hydrostatic(treatment: WallTreatment) -> None:

@@ -53,7 +53,7 @@ def slow(cloud, walls, parts, attracts):
             if parts.seen is not None:
                 found = called(odd_seen, cloud, walls, fluid, ghost, g, x)
                 pressure_sum, u_g, viscous = found[0], np.array(found[1 : 1 + dim]), np.array(found[4 : 4 + dim])
-            acts = attracts or pressure_sum > 0.0
+            acts = attracts or min(fluid[c.pressure], pressure_sum) > 0.0
             if not acts:
                 pressure_sum = 0.0
                 u_g = fluid[c.velocity] if (u_g - fluid[c.velocity]) @ x > 0.0 else u_g
@@ -143,17 +143,19 @@ def test_walls_bear_minus_what_they_exert(dim, parts):
 
 
 def test_an_edge_without_tension_pushes_but_does_not_pull():
-    """With the normal (0, -1) a force upwards pushes. Where an edge would pull, a gap may open without any rate."""
+    """With the normal (0, -1) a force upwards pushes. Where an edge would pull, or push fluid that is not under
+    pressure itself, a gap may open without any rate."""
 
     def surface(fluid, wall, edge, constants):
-        return 3.0, fluid.pressure, fluid.density
+        return 3.0, wall.pressure, fluid.density
 
-    wall = WallSide(**{**dict.fromkeys(WallSide._fields, 0.0), "ny": -1.0})
-    for attracts, pressure, opening, expected in (
-        (True, -2.0, 0.5, (3.0, -2.0, 0.5)),
-        (False, 2.0, 0.5, (3.0, 2.0, 0.5)),
-        (False, -2.0, 0.5, (0.0, 0.0, 0.0)),
-        (False, -2.0, -0.5, (0.0, 0.0, -0.5)),
+    for attracts, pressure, push, opening, expected in (
+        (True, -1.0, -2.0, 0.5, (3.0, -2.0, 0.5)),
+        (False, 1.0, 2.0, 0.5, (3.0, 2.0, 0.5)),
+        (False, 1.0, -2.0, 0.5, (0.0, 0.0, 0.0)),
+        (False, 1.0, -2.0, -0.5, (0.0, 0.0, -0.5)),
+        (False, -1.0, 2.0, 0.5, (0.0, 0.0, 0.0)),
     ):
+        wall = WallSide(**{**dict.fromkeys(WallSide._fields, 0.0), "ny": -1.0, "pressure": push})
         fluid = FluidSide(pressure, opening, 0.0, 0.0, 0.0)
         assert make_surface(surface, attracts=attracts)(fluid, wall, None, None) == expected

@@ -1,16 +1,24 @@
-"""Every wall treatment runs with the same bits on any number of threads, and continues from a state to the bit."""
+"""Every wall treatment runs with the same bits on any number of threads, and continues from a state to the bit.
+
+Without tension, none holds water up: films under a ceiling fall, contact lines stay, nothing hangs on walls. All these
+cases have the parameters of ``OPEN``, so that the loops of a treatment are compiled once.
+"""
 
 import numba
 import numpy as np
 import pytest
 
-from sphframe import Simulation, available, load_case
+from sphframe import Simulation, available, create, load_case
+from sphframe.cases.custom import Custom
 
 TREATMENTS = [entry.name for entry in available("wall_treatments")]
 SMALL = {
     "particle_spacing": 0.06, "until": 1.0, "slip": "no", "frame_interval": 1.0, "probe_interval": 1.0,
     "hydrostatic_lift": "balanced", "tension": "free", "kinematic_viscosity": 1e-3,
 }  # fmt: skip
+OPEN = {**SMALL, "until": 3.0, "tension": "none", "kinematic_viscosity": 0.0}
+REPELLING = ("lennard-jones", "monaghan-kajtar-2009")
+"""forces of these do not depend on the pressure: they never attract, and repel whatever is within their range"""
 
 
 def started(treatment, integrator, threads):
@@ -38,3 +46,56 @@ def test_runs_continue_to_the_bit_on_any_number_of_threads(treatment, integrator
         if name != "clocks":
             np.testing.assert_array_equal(two.state()[name], value, err_msg=name)
             np.testing.assert_array_equal(again.state()[name], value, err_msg=name)
+
+
+@pytest.mark.parametrize("treatment", [name for name in TREATMENTS if name not in REPELLING])
+def test_films_and_a_drop_under_a_ceiling_fall_freely(treatment):
+    spacing, gravity = 0.02, 9.81
+    films = [
+        {"shape": "box", "lower": (0.4 * n - 0.2, 0.6 - n * spacing), "upper": (0.4 * n + 0.1, 0.6), "pressure": 0.0}
+        for n in (1, 2, 3, 4)
+    ]
+    drop = {"shape": "circle", "centre": (2.0, 0.5), "radius": 0.1, "pressure": 0.0}
+    given = {**OPEN, "particle_spacing": spacing, "wall_treatment": treatment}
+    walls = [{"shape": "box", "lower": (0.0, 0.0), "upper": (2.3, 0.6)}]
+    case = Custom(**given, sound_speed=20.0, walls=walls, fluid=[*films, drop], guards={"filling": "report"})
+    simulation = Simulation(case, threads=1)
+    while simulation.time < 0.02:
+        simulation.advance()
+    np.testing.assert_allclose(simulation.fields().velocity[:, 1], -gravity * simulation.time, rtol=0.02)
+
+
+STILL = [name for name in TREATMENTS if create("wall_treatments", name).traits.exact_hydrostatic]
+
+
+@pytest.mark.parametrize("treatment", STILL)
+def test_the_contact_line_of_still_water_stays_flat(treatment):
+    given = {**OPEN, "particle_spacing": 0.03, "wall_treatment": treatment}
+    simulation = Simulation(load_case("hydrostatic-tank", None, given), threads=1)
+    start = simulation.fields().position
+    top = start[:, 1] > start[:, 1].max() - 0.01
+    while simulation.time < 0.2:
+        simulation.advance()
+    moved = np.abs(simulation.fields().position[top] - start[top])
+    assert moved.max() < 0.1 * 0.03
+
+
+@pytest.mark.parametrize("treatment", ["fixed-ghosts", "dynamic-2007", "mirror-images", "pair-mirror"])
+def test_nothing_hangs_on_walls_after_a_dam_break(treatment):
+    """One of each class of treatments; validation/wall_treatments has all.
+
+    What has stayed at a wall for 0.1 s has water below it, within a cone of 45 degrees, at t sqrt(g/H) = 10."""
+    simulation = Simulation(load_case("dam-break", None, {**OPEN, "wall_treatment": treatment}), threads=1)
+    spacing, (width, height), places = 0.06, (5.366 * 0.6, 1.8), []
+    for end in (2.38, 2.48):
+        while simulation.time < end:
+            simulation.advance()
+        places.append(simulation.fields().position)
+    before, after = places
+    distance = np.minimum(np.minimum(after[:, 0], width - after[:, 0]), height - after[:, 1])
+    held = (np.linalg.norm(after - before, axis=1) < 0.5 * spacing) & (distance < 1.5 * spacing)
+    lower = after[held, None, 1] - after[:, 1]
+    aside = np.abs(after[held, None, 0] - after[:, 0])
+    supported = np.any((lower > 0.0) & (lower < 3.0 * spacing) & (aside < lower), axis=1)
+    np.testing.assert_array_less(after[held][~supported, 1], 1.5 * spacing)
+    assert simulation.particles_outside() == 0
