@@ -71,6 +71,7 @@ DISTRIBUTIONS = {
     ("cases", "solitary-wave-movable-wall"): "sphframe-waves",
     ("rigid_bodies", "oscillating"): "sphframe-flows",
     ("rigid_bodies", "spinning"): "sphframe-flows",
+    ("body_forces", "roll"): "sphframe-flows",
     ("body_forces", "rotating-frame"): "sphframe-flows",
     ("body_forces", "surge"): "sphframe-flows",
     **{

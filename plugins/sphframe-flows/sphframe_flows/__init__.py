@@ -1,6 +1,6 @@
 """Flows with exact answers for sphframe, and the bodies and body forces that drive them."""
 
-from sphframe_flows.forces import RotatingFrame, Surge
+from sphframe_flows.forces import Roll, RotatingFrame, Surge
 from sphframe_flows.hydrostatic_wedge import HydrostaticWedge
 from sphframe_flows.jet_on_plate import JetOnPlate
 from sphframe_flows.lid_driven_cavity import LidDrivenCavity
@@ -19,6 +19,7 @@ __all__ = [
     "LidDrivenCavity",
     "Oscillating",
     "OscillatingCylinder",
+    "Roll",
     "RotatingBucket",
     "RotatingFrame",
     "SloshingTank",
