@@ -71,6 +71,18 @@ class SolidDomain:
         distance = np.sqrt(squares)
         return Feet(foot, np.where(self.contains(points), -distance, distance), triangle)
 
+    def chosen_feet(self, points: Array, lean: float) -> Feet:
+        """Return nearest points of the boundary as :meth:`feet` does; of several, those in an oblique direction.
+
+        This choice is made by points that are moved by ``lean`` (m), so that it does not depend on round-off.
+        """
+        from trimesh.triangles import closest_point
+
+        triangle = self.feet(points + lean * np.array([0.8, 0.5, 0.3])).triangle
+        foot: Array = closest_point(self.surface.triangles[triangle], points)  # type: ignore[no-untyped-call]
+        distance = np.linalg.norm(points - foot, axis=1)
+        return Feet(foot, np.where(self.contains(points), -distance, distance), triangle)
+
     @cached_property
     def _tree(self) -> Any:
         import igl

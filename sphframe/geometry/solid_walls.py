@@ -43,7 +43,7 @@ class SolidWalls(WallGroup):
     def ghosts(self, spacing: float, layers: int) -> GhostPoints:
         """Return ghosts that fill the solid behind the walls to a depth of ``layers`` times ``spacing`` (m)."""
         position, volume = self._fill(spacing, layers)
-        feet = self.domain.feet(position)
+        feet = self.domain.chosen_feet(position, 1e-4 * spacing)
         place = self._edges.at(feet, position)
         return GhostPoints(
             position,

@@ -97,6 +97,26 @@ def test_water_thrown_at_a_solid_is_never_behind_it(tmp_path: Path, name: str) -
     assert np.sum(depth_behind(mesh, position) > -SPACING) > 30, "some are beside it"
 
 
+def test_a_box_and_its_mesh_bear_the_same_forces(tmp_path: Path) -> None:
+    lower, upper = (0.2, 0.1, 0.0), (0.35, 0.25, 0.2)
+    trimesh.creation.box(bounds=[lower, upper]).export(tmp_path / "box.stl")
+    drawn = {"shape": "box", "lower": lower, "upper": upper}
+    mesh = {"shape": "mesh", "file": str(tmp_path / "box.stl")}
+    loads = []
+    for shape in (drawn, mesh):
+        water = {"shape": "box", "lower": (0, 0, 0), "upper": (0.2, 0.4, 0.275)}  # it is let go beside the box
+        case = Custom(
+            dimension=3, particle_spacing=SPACING, until=1.0, walls=[TANK, {**shape, "name": "box"}], fluid=[water]
+        )
+        simulation = Simulation(load_case(case), threads=1)
+        for _ in range(20):
+            simulation.advance()
+        load = simulation.wall_loads()["box"]
+        loads.append(np.concatenate([load.force, load.force_by_pressure, load.moment]))
+    assert loads[0][0] > 5.0
+    np.testing.assert_allclose(loads[1], loads[0], rtol=1e-3, atol=1e-3 * loads[0][0])
+
+
 def with_body(mesh: Any, path: Path, size: tuple[float, float], depth: float, **body: Any) -> Simulation:
     """A tank of the ``size``, with water around the ``mesh``, which is free to move."""
     mesh.export(path)
