@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from sphframe.analysis.fields import free_surface
+from sphframe.analysis.fields import free_surface, outline_nodes
 from sphframe.analysis.scales import case_of, pressure_scale, time_scale, wall_method
 from sphframe.arrays import Array, IntArray
 from sphframe.errors import InputError
@@ -62,7 +62,7 @@ def shown_particles(dataset: xr.Dataset, frame: xr.Dataset, values: Array) -> tu
     position = frame["position"].values
     if position.shape[1] == 2:
         return position, values
-    width = dataset["outline_node"].isel(space=1)
+    width = outline_nodes(dataset)[:, 1]
     middle = 0.5 * float(width.min() + width.max())
     near = np.abs(position[:, 1] - middle) < float(dataset.attrs["particle_spacing"])
     return position[near][:, [0, 2]], values[near]
@@ -99,7 +99,7 @@ def draw_walls(axes: "Axes", dataset: xr.Dataset, time: float) -> "list[Line2D]"
     """Draw the walls where they are at ``time``; in 3-D their outlines seen along y."""
     lines = [
         axes.plot([], [], color=_WALL_COLOUR, linewidth=1.6, solid_capstyle="round", zorder=3)[0]
-        for _ in range(dataset.sizes["outline"])
+        for _ in range(dataset.sizes.get("outline", 0))
     ]
     move_walls(lines, dataset, time)
     return lines
@@ -116,6 +116,8 @@ def walls_at(dataset: xr.Dataset, time: float) -> list[tuple[Array, int]]:
 
     Moving walls are displaced by the position of their body; its rotation is not applied.
     """
+    if "outline" not in dataset.sizes:
+        return []
     nodes = dataset["outline_node"].values
     counts, bodies = dataset["outline_node_count"].values, dataset["wall_body"].values
     result = []
@@ -156,7 +158,7 @@ def draw_free_surface(axes: "Axes", dataset: xr.Dataset, time: float) -> None:
 
 def view_of(dataset: xr.Dataset, frames: Sequence[xr.Dataset]) -> View:
     """Limits of x and of the height, m, that show the walls and the water, with little air above the water."""
-    nodes = dataset["outline_node"].values
+    nodes = outline_nodes(dataset)
     positions = np.concatenate([frame["position"].values for frame in frames])
     x0, x1 = nodes[:, 0].min(), np.fmax(nodes[:, 0].max(), np.nanmax(positions[:, 0]))
     y0 = nodes[:, -1].min()

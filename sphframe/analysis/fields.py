@@ -117,9 +117,17 @@ def to_grid(
     return result.transpose(*reversed(names), *rest)
 
 
+def outline_nodes(dataset: xr.Dataset) -> Array:
+    """Return the points (n, dim) of the outlines of walls, m; two corners of the domain if there are no walls."""
+    if "outline_node" in dataset:
+        nodes: Array = dataset["outline_node"].values
+        return nodes
+    return np.array([dataset.attrs["domain_lower"], dataset.attrs["domain_upper"]])
+
+
 def _axis(dataset: xr.Dataset, k: int, step: float) -> Array:
     """Evenly spaced points from wall to wall along axis ``k``, half a step from the walls."""
-    nodes = dataset["outline_node"].isel(space=k)
+    nodes = outline_nodes(dataset)[:, k]
     low, high = float(nodes.min()), float(nodes.max())
     count = max(round((high - low) / step), 1)
     return low + (np.arange(count) + 0.5) * (high - low) / count

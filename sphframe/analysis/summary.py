@@ -7,6 +7,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from sphframe.analysis.exact import exact_case
+from sphframe.analysis.fields import outline_nodes
 from sphframe.analysis.scales import case_of, pressure_scale, time_scale
 from sphframe.interfaces import Status
 
@@ -86,7 +87,7 @@ def front_arrival(dataset: xr.Dataset) -> dict[str, float] | None:
     """
     if "front_position" not in dataset or dataset.sizes["probe_time"] == 0:
         return None
-    there = float(dataset["outline_node"].isel(space=0).max()) - float(dataset.attrs["particle_spacing"])
+    there = float(outline_nodes(dataset)[:, 0].max()) - float(dataset.attrs["particle_spacing"])
     t, front = dataset["probe_time"].values, dataset["front_position"].values
     reached = np.flatnonzero(front >= there)
     if not reached.size:

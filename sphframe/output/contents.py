@@ -95,7 +95,7 @@ def frame_of(simulation: RunView) -> dict[str, Any]:
         **{name: getattr(fields, name) for name in ("position", "velocity", "pressure", "density")},
         **({"turns": simulation.turns()} if simulation.case.periodic else {}),
         "particles_outside": simulation.particles_outside(),
-        "ghost_pressure": simulation.ghost_fields().pressure,
+        **({"ghost_pressure": simulation.ghost_fields().pressure} if simulation.ghost_count else {}),
         "time": simulation.time,
     }
 

@@ -77,15 +77,19 @@ DISTRIBUTIONS = {
     **{
         ("cases", name): "sphframe-flows"
         for name in (
+            "couette",
+            "cylinder-array",
             "hydrostatic-wedge",
             "jet-on-plate",
             "lid-driven-cavity",
             "oscillating-cylinder",
+            "poiseuille",
             "rotating-bucket",
             "sloshing-tank",
             "standing-wave",
             "stokes-plate",
             "taylor-couette",
+            "taylor-green",
         )
     },
     ("studies", "huang2019"): "sphframe-huang2019",

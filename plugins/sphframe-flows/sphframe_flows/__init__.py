@@ -1,5 +1,7 @@
 """Flows with exact answers for sphframe, and the bodies and body forces that drive them."""
 
+from sphframe_flows.channels import Couette, Poiseuille
+from sphframe_flows.cylinder_array import CylinderArray
 from sphframe_flows.forces import Roll, RotatingFrame, Surge
 from sphframe_flows.hydrostatic_wedge import HydrostaticWedge
 from sphframe_flows.jet_on_plate import JetOnPlate
@@ -12,13 +14,17 @@ from sphframe_flows.spinning import Spinning
 from sphframe_flows.standing_wave import StandingWave
 from sphframe_flows.stokes_plate import StokesPlate
 from sphframe_flows.taylor_couette import TaylorCouette
+from sphframe_flows.taylor_green import TaylorGreen
 
 __all__ = [
+    "Couette",
+    "CylinderArray",
     "HydrostaticWedge",
     "JetOnPlate",
     "LidDrivenCavity",
     "Oscillating",
     "OscillatingCylinder",
+    "Poiseuille",
     "Roll",
     "RotatingBucket",
     "RotatingFrame",
@@ -28,4 +34,5 @@ __all__ = [
     "StokesPlate",
     "Surge",
     "TaylorCouette",
+    "TaylorGreen",
 ]

@@ -17,6 +17,13 @@ COARSE: dict[str, tuple[dict[str, Any], dict[str, float]]] = {
     ),
     "stokes-plate": ({"particle_spacing": 0.1, "until": 0.8, "kinematic_viscosity": 0.2}, {"velocity": 0.05}),
     "oscillating-cylinder": ({"particle_spacing": 0.02, "until": 1.5}, {"added_mass_inner": 0.06}),
+    "poiseuille": (
+        {"particle_spacing": 0.0625, "tension": "free"},
+        {"velocity": 0.012, "start_up": 0.012, "stress": 1e-3},
+    ),
+    "couette": ({"particle_spacing": 0.0625, "tension": "free"}, {"velocity": 0.001, "stress": 1e-3}),
+    "cylinder-array": ({}, {"drag_factor": 0.02, "force": 0.02}),
+    "taylor-green": ({"until": 0.5}, {"last_kinetic_energy": 0.03, "velocity": 0.05, "largest_hole": 0.2}),
 }
 """parameters of short runs, and limits of their errors"""
 
