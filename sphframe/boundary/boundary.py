@@ -132,8 +132,8 @@ class Boundary:
     @property
     def speed(self) -> float:
         """Largest speed with which a ghost moves, m/s."""
-        moving = self.velocity[self.body >= 0]
-        return float(np.sqrt(np.square(moving).sum(axis=1).max(initial=0.0))) if self.bodies else 0.0
+        moving = self.velocity[self.body >= 0] if self.bodies else self.velocity[:0]
+        return float(np.sqrt(np.square(moving).sum(axis=1).max(initial=0.0)))
 
     def move(
         self,
@@ -167,8 +167,10 @@ class Boundary:
         self.driving += driving_force
         if gradient is not None:
             self.driving += density * self.foot @ gradient.T
-        self.driving[:, self.periods.repeats] = 0.0  # no pressure grows along a direction that repeats itself
-        rows[:, : self.dim] = self.periods.wrapped(self.position)
+        rows[:, : self.dim] = self.position
+        if self.periods:  # no pressure grows along a direction that repeats itself
+            self.driving[:, self.periods.repeats] = 0.0
+            rows[:, : self.dim] = self.periods.wrapped(self.position)
 
     def references(self, motions: Sequence[Motion]) -> Array:
         """Return the points (walls, dim) to which moments refer: the centre of the wall's body, or the origin, m."""
