@@ -114,7 +114,7 @@ def make_images(  # type: ignore[no-untyped-def]
                         lift[d] += walls.reflection[g, d, e] * (rows[i, e] - feet[g, e])
                     far += lift[d] ** 2
                     miss += (rows[i, d] + 0.5 * lift[d] - feet[g, d]) ** 2
-                if before <= 0.0 or far > deepest or miss > farthest:
+                if before < -1e-9 * parameters.spacing or far > deepest or miss > farthest:
                     continue
                 place = count
                 for s in range(count):
