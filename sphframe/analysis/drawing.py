@@ -183,7 +183,9 @@ def colour_limits(dataset: xr.Dataset, frames: Sequence[xr.Dataset], name: str) 
 
 
 def time_label(dataset: xr.Dataset, time: float) -> str:
-    """Time in s, and dimensionless as t sqrt(g/H), as text."""
+    """Time in s, and with gravity dimensionless as t sqrt(g/H), as text."""
+    if dataset.attrs["gravity"] == 0.0:
+        return rf"$t$ = {time:.3f} s"
     return rf"$t$ = {time:.3f} s    ($t\sqrt{{g/H}}$ = {time / time_scale(dataset):.2f})"
 
 

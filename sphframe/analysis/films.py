@@ -218,7 +218,8 @@ def _particle_markers(axes: "Axes", dataset: xr.Dataset, colours: str) -> "list[
 
 def _time_text(dataset: xr.Dataset, time: float) -> str:
     """Time as plain text, whose layout takes less time than that of a formula."""
-    return f"t = {time:.3f} s    (t √(g/H) = {time / time_scale(dataset):.2f})"
+    seconds = f"t = {time:.3f} s"
+    return f"{seconds}    (t √(g/H) = {time / time_scale(dataset):.2f})" if dataset.attrs["gravity"] > 0.0 else seconds
 
 
 def _marker_size(axes: "Axes", dataset: xr.Dataset) -> float:
