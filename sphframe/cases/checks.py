@@ -193,7 +193,9 @@ def _name_problems(scene: Scene) -> Iterator[str]:
 def _output_problems(case: Case) -> Iterator[str]:
     for name, limit in (("frame_interval", _MOST_FRAMES), ("probe_interval", _MOST_SAMPLES)):
         interval = getattr(case, name)
-        if case.until / interval > limit:
+        if interval == 0.0:
+            yield f"until = {case.until:g} s is too short for any {name}; give a later end of the run"
+        elif case.until / interval > limit:
             yield (
                 f"{name} = {interval:g} s with until = {case.until:g} s gives {case.until / interval:.2g} outputs;"
                 f" choose {case.until / limit:.2g} s or more"

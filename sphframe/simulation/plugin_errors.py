@@ -1,5 +1,6 @@
 """Simulation: errors of plugins are raised again as errors that name the plugin."""
 
+import sys
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -64,10 +65,18 @@ def naming_hook() -> Iterator[None]:
 
 
 def _passed_through(error: BaseException, entry: Entry) -> bool:
-    """Whether ``error`` was raised in, or by something called from, the module of ``entry``."""
+    """Whether ``error`` was raised in, or by something called from, the module of ``entry``.
+
+    A frame of a compiled function has the name of its file, but not that of its module.
+    """
     package = entry.value.partition(":")[0].partition(".")[0]
-    frames = traceback.walk_tb(error.__traceback__)
-    return any(str(frame.f_globals.get("__name__")).partition(".")[0] == package for frame, _ in frames)
+    file = getattr(sys.modules.get(package), "__file__", None) or ""
+    home = file.removesuffix("__init__.py")
+    for frame, _ in traceback.walk_tb(error.__traceback__):
+        named = str(frame.f_globals.get("__name__")).partition(".")[0] == package
+        if named or (home and frame.f_code.co_filename.startswith(home)):
+            return True
+    return False
 
 
 def _shortened(error: BaseException) -> str:
