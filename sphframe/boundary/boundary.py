@@ -47,6 +47,9 @@ class Boundary:
     periods: in which the ghosts repeat themselves.
     """
 
+    _force: Array | None = None
+    """the driving force with which the ghosts were last moved"""
+
     def __init__(
         self,
         walls: Sequence[Wall],
@@ -146,8 +149,11 @@ class Boundary:
         """Put ghosts (their ``rows``) and mirror points where ``motions`` carries them; set the driving forces.
 
         ``driving_force`` (dim,) is rho0 f at the origin, N/m^3, and ``gradient`` (dim, dim) that of f, 1/s^2, None for
-        a uniform force; ``density`` is rho0.
+        a uniform force; ``density`` is rho0. Ghosts at rest are left as they are if it is the same array as before.
         """
+        if not len(motions) and self._force is driving_force:
+            return  # nothing has changed
+        self._force = driving_force
         if len(motions):
             position = np.array([motion.position for motion in motions])
             rotations = np.array([rotation_matrix(turned[3:]) for turned in position if self.dim == 3])
