@@ -7,6 +7,7 @@ from pathlib import Path
 from textwrap import dedent
 from types import ModuleType
 
+import numba
 import pytest
 from hypothesis import HealthCheck, settings
 
@@ -26,6 +27,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Run the files that contain slow tests first, so that no worker is left with one at the end."""
     slow = {item.path for item in items if item.get_closest_marker("slow")}
     items.sort(key=lambda item: item.path not in slow)
+
+
+@pytest.fixture(autouse=True)
+def one_thread() -> None:
+    """Compile loops without threads, which takes half the time, unless a test asks for threads."""
+    numba.set_num_threads(1)
 
 
 @pytest.fixture(scope="session")

@@ -1,6 +1,5 @@
 """Simulation: errors of plugins are raised again as errors that name the plugin."""
 
-import sys
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -27,7 +26,7 @@ def naming_component(case: Case, *, running: bool) -> Iterator[None]:
     except Exception as error:
         strangers = [find(kind, getattr(case, field).name) for field, kind in COMPONENT_KINDS.items()]
         strangers = [entry for entry in strangers if entry.distribution != "sphframe"]
-        compiled = isinstance(error, numba.core.errors.NumbaError | SystemError)
+        compiled = isinstance(error, numba.core.errors.NumbaError | SystemError) or _raised_in_a_loop(error)
         if not compiled:
             strangers = [entry for entry in strangers if _passed_through(error, entry)]
         if not strangers:
@@ -64,19 +63,17 @@ def naming_hook() -> Iterator[None]:
         raise
 
 
-def _passed_through(error: BaseException, entry: Entry) -> bool:
-    """Whether ``error`` was raised in, or by something called from, the module of ``entry``.
+def _raised_in_a_loop(error: BaseException) -> bool:
+    """Whether ``error`` was raised in a compiled function, whose frame does not know its module."""
+    *_, (last, _) = traceback.walk_tb(error.__traceback__)
+    return "__name__" not in last.f_globals
 
-    A frame of a compiled function has the name of its file, but not that of its module.
-    """
+
+def _passed_through(error: BaseException, entry: Entry) -> bool:
+    """Whether ``error`` was raised in, or by something called from, the module of ``entry``."""
     package = entry.value.partition(":")[0].partition(".")[0]
-    file = getattr(sys.modules.get(package), "__file__", None) or ""
-    home = file.removesuffix("__init__.py")
-    for frame, _ in traceback.walk_tb(error.__traceback__):
-        named = str(frame.f_globals.get("__name__")).partition(".")[0] == package
-        if named or (home and frame.f_code.co_filename.startswith(home)):
-            return True
-    return False
+    frames = traceback.walk_tb(error.__traceback__)
+    return any(str(frame.f_globals.get("__name__")).partition(".")[0] == package for frame, _ in frames)
 
 
 def _shortened(error: BaseException) -> str:

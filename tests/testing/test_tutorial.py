@@ -25,6 +25,7 @@ class Reader:
         self.site = folder / "site"
         self.site.mkdir()
         self.environment = {**os.environ, "PYTHONPATH": str(self.site), "COLUMNS": "200", "NO_COLOR": "1"}
+        self.environment["NUMBA_NUM_THREADS"] = "1"  # loops compile in half the time
 
     def bash(self, block: str) -> None:
         self.output = ""
