@@ -169,7 +169,7 @@ class Case(BaseModel, ABC):
     def upward(self) -> Array:
         """The unit vector (dim,) against gravity; along the last axis without gravity."""
         pressing = self.pressing_gravity
-        g = float(np.linalg.norm(pressing))
+        g = math.hypot(*pressing)
         return pressing / -g if g > 0.0 else gravity_vector(-1.0, self.dimension)
 
     @property

@@ -95,6 +95,8 @@ def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
             f"particle_spacing = {spacing:g} m is more than a quarter of the water depth, {scene.depth:g} m;"
             f" choose {scene.depth / 20.0:.2g} m or less"
         )
+    if spacing > scene.depth:
+        return  # no geometry can be made with it
     yield from _output_problems(case)
     yield from _step_problems(case, scene)
     if shape_problems:

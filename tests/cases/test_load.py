@@ -195,6 +195,8 @@ BAD_FILES: list[tuple[str, str]] = [
     (TANK.replace("[1.5, 0.5]", "[1.5]"), r"walls\[0\].points\[3\]\[1\] is missing"),
     (TANK.replace("[1.5, 0.5]", "[1, 2, 3]"), r"walls\[0\].points\[3\] = \[1, 2, 3\] must have 2 or fewer entries"),
     (TANK.replace("[1.3, 0.3], [0, 0.3]]", "]"), r"fluid\[0\].points = .* must have 3 or more entries"),
+    ("gravity = 1.34e154\n" + TANK, "more than 1e.10 steps"),
+    (TANK.replace("particle_spacing = 0.02", "particle_spacing = 1e152"), "more than a quarter of the water depth"),
     (TANK.replace("until = 0.5", "until = 5e-324"), "until = 4.94066e-324 s is too short for any frame_interval"),
     ("walls = []\nfluid = []\nparticle_spacing = 0.1\nuntil = 1", "fluid = .* must have 1 or more entries"),
     ('case = "os:PathLike"', "is the address of code"),

@@ -21,7 +21,7 @@ COARSE: dict[str, tuple[dict[str, Any], dict[str, float]]] = {
         {"particle_spacing": 0.0625, "tension": "free"},
         {"velocity": 0.012, "start_up": 0.012, "stress": 1e-3},
     ),
-    "couette": ({"particle_spacing": 0.0625, "tension": "free"}, {"velocity": 0.001, "stress": 1e-3}),
+    "couette": ({"particle_spacing": 0.0625, "tension": "free", "until": 5.0}, {"velocity": 0.01}),
     "cylinder-array": ({}, {"drag_factor": 0.02, "force": 0.02}),
     "taylor-green": ({"until": 0.5}, {"last_kinetic_energy": 0.03, "velocity": 0.05, "largest_hole": 0.2}),
 }
