@@ -12,6 +12,7 @@ import xarray as xr
 from sphframe import open_dataset, run
 
 pytestmark = [
+    pytest.mark.long,
     pytest.mark.slow,
     pytest.mark.filterwarnings("ignore::sphframe.cases.CaseWarning"),
     pytest.mark.skipif(sys.platform == "win32", reason="SIGKILL and fork are POSIX"),

@@ -49,6 +49,7 @@ def written(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in paths}
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_killed_twice_it_repeats_nothing_and_reports_the_same(tiny: ModuleType, cluster: str, tmp_path: Path) -> None:
     folder, generator = tmp_path / "killed", random.Random()
