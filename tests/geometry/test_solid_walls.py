@@ -126,8 +126,10 @@ def test_random_boxes_and_spheres(tmp_path_factory, size, axis, angle):
         assert group.behind(ghosts.position).all()
         assert not group.behind(ghosts.mirror).any()
         feet = group.domain.feet(ghosts.position)
-        middle = 0.5 * (ghosts.position + ghosts.mirror)  # a nearest point of the wall; some ghosts have several
-        as_near = np.abs(np.linalg.norm(ghosts.position - middle, axis=1) - feet.depth) < 1e-9
+        middle = 0.5 * (
+            ghosts.position + ghosts.mirror
+        )  # a nearest point of the wall, or one that is as near within 1e-4 dx
+        as_near = np.abs(np.linalg.norm(ghosts.position - middle, axis=1) - feet.depth) < 1.01e-4
         on_wall = np.abs(group.domain.feet(middle).depth) < 1e-9
         assert np.all(as_near & on_wall), "outside of a convex obstacle no mirror point is moved"
         error = filling_errors(group, 1.0, count=60)
