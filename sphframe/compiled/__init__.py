@@ -1,6 +1,6 @@
 """Compiled: the tools with which the loops of Numba are written."""
 
-from sphframe.compiled.distance import nearest, squared_distance
+from sphframe.compiled.distance import nearest, offset_between, squared_distance
 from sphframe.compiled.fast_exp import fast_exp
 from sphframe.compiled.fma import fma
 from sphframe.compiled.lanes import LANES
@@ -15,6 +15,7 @@ __all__ = [
     "fma",
     "local_array",
     "nearest",
+    "offset_between",
     "specialise",
     "squared_distance",
 ]

@@ -15,15 +15,23 @@ def nearest(difference, parameters, d):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(inline="always")
-def squared_distance(a, i, b, j, dim, periodic=False, parameters=None):  # type: ignore[no-untyped-def]
+def offset_between(a, i, b, j, dim, periodic, parameters):  # type: ignore[no-untyped-def]
+    """Return the components of a_i - b_j, the third one 0 in two dimensions, and their sum of squares.
+
+    The arguments are those of :func:`squared_distance`.
+    """
+    dx = a[i, 0] - b[j, 0]
+    dy = a[i, 1] - b[j, 1]
+    dz = a[i, 2] - b[j, 2] if dim == 3 else 0.0
+    if periodic:
+        dx, dy, dz = nearest(dx, parameters, 0), nearest(dy, parameters, 1), nearest(dz, parameters, 2)
+    return dx, dy, dz, dx * dx + dy * dy + dz * dz
+
+
+@numba.njit(inline="always")
+def squared_distance(a, i, b, j, dim, periodic, parameters):  # type: ignore[no-untyped-def]
     """Return |a_i - b_j|^2 from the first ``dim`` columns of row ``i`` of ``a`` and row ``j`` of ``b``.
 
     With ``periodic``, a constant, the distance is that of the nearest copies.
     """
-    square = 0.0
-    for d in range(dim):
-        difference = a[i, d] - b[j, d]
-        if periodic:
-            difference = nearest(difference, parameters, d)
-        square += difference**2
-    return square
+    return offset_between(a, i, b, j, dim, periodic, parameters)[3]

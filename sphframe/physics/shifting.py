@@ -26,7 +26,7 @@ import math
 
 import numba
 
-from sphframe.compiled import LANES, nearest
+from sphframe.compiled import LANES, offset_between
 from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, MASKED, PERIODIC, SUPPORT, VALUE
 from sphframe.neighbours.sight import WHOLE
 
@@ -67,14 +67,7 @@ def fluid_fillings(  # type: ignore[no-untyped-def]
         sx = sy = sz = cx = cy = cz = 0.0
         for k in range(fluid_counts[c] + ghost_counts[c]):
             j = lists[c, k]
-            dx = rows[j, 0] - rows[i, 0]
-            dy = rows[j, 1] - rows[i, 1]
-            dz = rows[j, 2] - rows[i, 2] if DIM == 3 else 0.0
-            if PERIODIC:
-                dx, dy = nearest(dx, parameters, 0), nearest(dy, parameters, 1)
-                if DIM == 3:
-                    dz = nearest(dz, parameters, 2)
-            r2 = dx * dx + dy * dy + dz * dz
+            dx, dy, dz, r2 = offset_between(rows, j, rows, i, DIM, PERIODIC, parameters)
             if r2 < limit and r2 > 0.0:
                 weight = -parameters.gradient_scale * rows[j, COLUMNS.volume] * GRADIENT(r2 * per_h2)
                 if MASKED:
@@ -111,14 +104,7 @@ def surface_normals(  # type: ignore[no-untyped-def]
         gx = gy = gz = 0.0
         for k in range(fluid_counts[c]):
             j = lists[c, k]
-            dx = rows[j, 0] - rows[i, 0]
-            dy = rows[j, 1] - rows[i, 1]
-            dz = rows[j, 2] - rows[i, 2] if DIM == 3 else 0.0
-            if PERIODIC:
-                dx, dy = nearest(dx, parameters, 0), nearest(dy, parameters, 1)
-                if DIM == 3:
-                    dz = nearest(dz, parameters, 2)
-            r2 = dx * dx + dy * dy + dz * dz
+            dx, dy, dz, r2 = offset_between(rows, j, rows, i, DIM, PERIODIC, parameters)
             seen = r2 < limit
             if MASKED:
                 seen = seen and shares[c, k, i - c * LANES] > 0

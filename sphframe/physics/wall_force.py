@@ -14,7 +14,7 @@ Departs from the paper: its Eq. 29 takes a pressure difference, which is zero on
 
 import numba
 
-from sphframe.compiled import LANES, nearest
+from sphframe.compiled import LANES, offset_between
 from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, MORRIS, PERIODIC, SEEN, SUPPORT
 from sphframe.interfaces import FluidSide, Separation
 from sphframe.neighbours.sight import WHOLE
@@ -74,18 +74,7 @@ def wall_reaction(  # type: ignore[no-untyped-def]
                 for s in range(images.counts[j] if IMAGES else 1):
                     row = SLOTS * j + s if IMAGES else j
                     g = images.ghost[row] if IMAGES else j - fluid_count
-                    dx = source[row, 0] - rows[i, 0]
-                    dy = source[row, 1] - rows[i, 1]
-                    if PERIODIC:
-                        dx = nearest(dx, parameters, 0)
-                        dy = nearest(dy, parameters, 1)
-                    dz = 0.0
-                    r2 = dx * dx + dy * dy
-                    if DIM == 3:
-                        dz = source[row, 2] - rows[i, 2]
-                        if PERIODIC:
-                            dz = nearest(dz, parameters, 2)
-                        r2 += dz * dz
+                    dx, dy, dz, r2 = offset_between(source, row, rows, i, DIM, PERIODIC, parameters)
                     if r2 < limit:
                         pressures = rows[i, COLUMNS.pressure] + source[row, COLUMNS.pressure]
                         u, v, w = source[row, COLUMNS.u], source[row, COLUMNS.v], source[row, COLUMNS.w]
