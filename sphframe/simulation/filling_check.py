@@ -55,22 +55,19 @@ def filling_by(
     points: Array,
     components: Components,
     parameters: LoopParameters,
-    sight: Sight | None = None,
-    periods: Periods | None = None,
+    sight: Sight | None,
+    periods: Periods,
 ) -> Array:
     """Return sum_j V_j W(x - x_j) at ``points`` x (k, dim), m, over particles at ``position`` (n, dim), m.
 
-    With ``sight``, the last ones are the ghosts, and counted is what is seen from each point. With ``periods``, copies
-    of particles count, too.
+    With ``sight``, the last ones are the ghosts, and counted is what is seen from each point. With ``periods``, the
+    nearest copies of particles count.
     """
-    if periods:
-        position, number = periods.with_copies(position, parameters.support)
-        points, volume = periods.wrapped(points), volume[number]
     columns, sums = Columns.of(points.shape[1]), np.zeros(len(points))
     if len(points) and len(position):
         rows = columns.zeros(len(position))
-        rows[:, columns.position], rows[:, columns.volume] = position, volume
-        lists = NeighbourLists(columns.dim, len(rows), 0, parameters.support, 0.0)
+        rows[:, columns.position], rows[:, columns.volume] = periods.wrapped(position), volume
+        lists = NeighbourLists(columns.dim, len(rows), 0, parameters.support, 0.0, periods=periods)
         numbers = lists.sort(rows)
         rows = rows[numbers]
         near, counts = lists.around(points, rows)
