@@ -51,10 +51,11 @@ def fluid_problems(scene: Scene, spacing: float, support: float, periods: Period
 
 
 def _surface_problems(scene: Scene, groups: Sequence[WallGroup], spacing: float) -> Iterator[str]:
+    sliding = [(k, wall) for k, wall in enumerate(scene.walls) if wall.surface_velocity is not None]
+    if not sliding:
+        return
     panels = panels_of(groups, spacing)
-    for k, wall in enumerate(scene.walls):
-        if wall.surface_velocity is None:
-            continue
+    for k, wall in sliding:
         if wall.body is not None:
             yield (
                 f"wall {wall.name!r} has a surface_velocity, and is carried by body {wall.body!r}: leave one out; a"

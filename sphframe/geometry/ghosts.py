@@ -13,6 +13,7 @@ section 2.2.
 
 import itertools
 from abc import ABC, abstractmethod
+from collections.abc import Iterable
 from typing import Any, NamedTuple, final
 
 import numpy as np
@@ -189,15 +190,9 @@ class PlaneWalls(WallGroup):
         lines = [k for k, wall in enumerate(walls.values()) if wall.is_line and not wall.one_sided]
         outlines = {wall.name: wall.outline(CHORD * spacing) for wall in walls.values()}
         self._periods = Periods.none(2) if periods is None else periods
-        shifts = self._periods.shifts()
-        for wall in walls.values():
-            extent = np.subtract(*wall.bounds()[::-1])
-            for axis in np.flatnonzero(self._periods.repeats & (extent > self._periods.length + 1e-9 * spacing)):
-                raise InputError(
-                    f"wall {wall.name!r} extends over {extent[axis]:g} m along {'xy'[axis]}, more than the period of"
-                    f" {self._periods.length[axis]:g} m: draw what repeats itself once"
-                )
         if self._periods:  # the walls and the fluid of all boxes around the one that is simulated
+            _check_extents(walls.values(), self._periods, spacing)
+            shifts = self._periods.shifts()
             outlines = {
                 name: [piece + shift for piece in _at_home(lines, self._periods) for shift in shifts]
                 for name, lines in outlines.items()
@@ -360,6 +355,17 @@ class PlaneWalls(WallGroup):
     def behind(self, points: Array) -> BoolArray:
         """Return whether each of ``points`` (n, 2), m, lies behind one of the walls, and not on it."""
         return self.domain.behind(self._periods.wrapped(points))
+
+
+def _check_extents(walls: Iterable[Wall], periods: Periods, spacing: float) -> None:
+    """Refuse walls that are longer than a period."""
+    for wall in walls:
+        extent = np.subtract(*wall.bounds()[::-1])
+        for axis in np.flatnonzero(periods.repeats & (extent > periods.length + 1e-9 * spacing)):
+            raise InputError(
+                f"wall {wall.name!r} extends over {extent[axis]:g} m along {'xy'[axis]}, more than the period of"
+                f" {periods.length[axis]:g} m: draw what repeats itself once"
+            )
 
 
 def _at_home(lines: list[Array], periods: Periods) -> list[Array]:
