@@ -8,7 +8,7 @@ from typing import Any, final
 import numpy as np
 
 from sphframe.arrays import Array
-from sphframe.bodies.displacement_series import numbers_of, read_text
+from sphframe.bodies.displacement_series import numbers_of, read_text, with_text
 from sphframe.errors import InputError
 from sphframe.interfaces.body_force import BodyForce
 
@@ -68,10 +68,7 @@ class ForceSeries(BodyForce):
     @classmethod
     def with_contents(cls, options: Mapping[str, Any], folder: Path) -> dict[str, Any]:
         """Return ``options`` with the text of the file at ``path``, which is looked for in ``folder`` first."""
-        if options.get("contents") is not None or not isinstance(options.get("path"), str | Path):
-            return dict(options)
-        path = Path(options["path"])
-        return {**options, "contents": read_text(folder / path if (folder / path).is_file() else path)}
+        return with_text(options, folder)
 
     def placed(self, dimension: int, gravity: Array) -> "ForceSeries":
         """Return the series, which must have one column for each dimension."""

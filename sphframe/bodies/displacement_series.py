@@ -87,10 +87,7 @@ class DisplacementSeries(RigidBody):
     @classmethod
     def with_contents(cls, options: Mapping[str, Any], folder: Path) -> dict[str, Any]:
         """Return ``options`` with the text of the file at ``path``, which is looked for in ``folder`` first."""
-        if options.get("contents") is not None or not isinstance(options.get("path"), str | Path):
-            return dict(options)
-        path = Path(options["path"])
-        return {**options, "contents": read_text(folder / path if (folder / path).is_file() else path)}
+        return with_text(options, folder)
 
     def placed(self, surroundings: Surroundings) -> "DisplacementSeries":
         """Return the body, whose columns must be those of the dimension."""
@@ -106,6 +103,19 @@ class DisplacementSeries(RigidBody):
         inside = 1.0 if first <= time < last else 0.0
         x, u, a = (np.array(piece(min(max(time, first), last)))[: len(position)] for piece in pieces)
         return Motion(x, inside * u, inside * a)
+
+
+def with_text(options: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """Return ``options`` with the ``contents`` of the file at their ``path``, which is looked for in ``folder`` first.
+
+    Raises
+    ------
+    InputError: when the file cannot be read.
+    """
+    if options.get("contents") is not None or not isinstance(options.get("path"), str | Path):
+        return dict(options)
+    path = Path(options["path"])
+    return {**options, "contents": read_text(folder / path if (folder / path).is_file() else path)}
 
 
 def read_text(path: Path) -> str:
