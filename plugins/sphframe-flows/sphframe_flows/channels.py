@@ -10,7 +10,7 @@ import xarray as xr
 from sphframe import Array, Case, InputError
 from sphframe.cases import Component, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import PolygonRegion, PolygonWall
-from sphframe_flows.solutions import sample_times, variable
+from sphframe_flows.solutions import late_mean, sample_times, variable
 
 _TERMS = 200
 
@@ -109,9 +109,8 @@ class Channel(ExactCase):
         height, found = dataset["position"].isel(space=1).values, dataset["velocity"].isel(space=0).values
         times = dataset["time"].values
         largest = [np.abs(u - self.velocity(y, t)).max() for y, u, t in zip(height, found, times, strict=True)]
-        late = slice(4 * dataset.sizes["probe_time"] // 5, None)
         steady = max(abs(float(stress[0])) for stress in self.stresses(np.array([math.inf])))
-        differences = [(run[f"{w}_stress"] - exact[f"{w}_stress"]).values[late].mean() for w in ("bed", "lid")]
+        differences = [late_mean(run[f"{w}_stress"] - exact[f"{w}_stress"]) for w in ("bed", "lid")]
         return {
             "velocity": float(largest[-1]) / self.largest_velocity,
             "start_up": float(max(largest)) / self.largest_velocity,

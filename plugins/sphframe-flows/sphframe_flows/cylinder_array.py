@@ -9,7 +9,7 @@ import xarray as xr
 from sphframe import Case, InputError
 from sphframe.cases import Component, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import Box, Circle, CircleWall, DifferenceRegion
-from sphframe_flows.solutions import sample_times, variable
+from sphframe_flows.solutions import late_mean, sample_times, variable
 
 _DRAG = {0.05: 15.558, 0.1: 24.832, 0.2: 51.527, 0.3: 102.88, 0.4: 217.89, 0.5: 532.55}
 """drag factor of a cylinder by the share of the area that the cylinders take"""
@@ -124,8 +124,5 @@ class CylinderArray(ExactCase):
     def errors(self, dataset: xr.Dataset) -> dict[str, float]:
         """Return the errors of drag factor and force."""
         exact, run = self.exact(dataset), self.measured(dataset)
-        ratio = {
-            name: float(run[name][4 * run.sizes[dim] // 5 :].mean() / exact[name][-1])
-            for name, dim in (("mean_velocity", "time"), ("force", "probe_time"))
-        }
+        ratio = {name: late_mean(run[name]) / float(exact[name][-1]) for name in ("mean_velocity", "force")}
         return {"drag_factor": abs(ratio["force"] / ratio["mean_velocity"] - 1.0), "force": abs(ratio["force"] - 1.0)}

@@ -22,6 +22,11 @@ def sample_times(dataset: xr.Dataset) -> tuple[str, Any, dict[str, str]]:
     return variable("probe_time", dataset["probe_time"].values, "s", "time")
 
 
+def late_mean(values: xr.DataArray) -> float:
+    """Return the mean over the last fifth of a series."""
+    return float(values[4 * len(values) // 5 :].mean())
+
+
 def mean_velocity(dataset: xr.Dataset, points: Array, frames: int) -> Array:
     """Return the velocity (k, dim), m/s, at ``points`` (k, dim), averaged over the last ``frames`` of a run.
 

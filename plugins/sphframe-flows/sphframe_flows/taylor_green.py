@@ -111,7 +111,7 @@ class TaylorGreen(ExactCase):
         )
 
     def exact(self, dataset: xr.Dataset) -> xr.Dataset:
-        """Return the ``kinetic_energy``, and the speed along x of the particles over their x in the last frame."""
+        """Return the ``kinetic_energy``."""
         energy = 0.25 * self.reference_density * self.speed**2 * self.side**2
         decay = self.decay(dataset["probe_time"].values)
         return xr.Dataset(
