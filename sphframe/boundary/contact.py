@@ -202,18 +202,9 @@ def put_back(  # type: ignore[no-untyped-def]
                 if MASKED:
                     inside = _INSIDE * spacing
                     ghosts = _ghosts_beside(
-                        rows,
-                        i,
-                        ghosts,
-                        shares[c, begin:end, a],
-                        passable,
-                        fluid_count,
-                        columns,
-                        foot,
-                        normal,
-                        PERIODIC,
-                        parameters,
-                    )
+                        rows, i, ghosts, shares[c, begin:end, a], passable, fluid_count, columns, foot, normal,
+                        PERIODIC, parameters,
+                    )  # fmt: skip
                 contacts += _put_back_one(
                     rows, i, ghosts, fluid_count, columns, foot, normal, wall_velocity, inside, PERIODIC, parameters
                 )

@@ -32,7 +32,10 @@ class Sight(NamedTuple):
 
     ``ends`` (k, 4): x, y of start and end of each side, m, the fluid on its left; ``smooth`` (k, 2): dx where the start
     and the end of a side are ends of a line, -dx where they are corners of a thin solid, else 0; ``chart`` (k,);
-    ``thin`` (k,), whether it hides particles;"""
+    ``thin`` (k,), whether it hides particles; ``beyond`` (k,): 1 or -1 where it only continues a thin wall beyond the
+    end or the start of a side, else 0; ``body`` (k,), -1 at rest; ``spacing``, m. ``ghost_chart`` (g,); ``ghost_thin``
+    (g,), whether a ghost is seen only through its chart.
+    """
 
     ends: Array
     smooth: Array
