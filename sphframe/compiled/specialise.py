@@ -9,19 +9,22 @@ loop, and an edited part gives another loop.
 """
 
 import hashlib
-import inspect
+import sys
 import types
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, TypeVar, cast
 
 import numba
 import numpy as np
+from numba.core.caching import NullCache
 from numba.core.dispatcher import Dispatcher
 
 F = TypeVar("F", bound=Callable[..., Any])
 
 _parts: dict[str, Any] = {}
 _loops: dict[str, Callable[..., Any]] = {}
+_FIXED = {"numpy", "numba", "llvmlite", "scipy", *sys.stdlib_module_names}
+"""packages whose code is taken as fixed: of what they define, only the names are hashed"""
 
 
 def specialise(
@@ -104,24 +107,29 @@ def _rebind(template: Callable[..., Any], bound: dict[str, Any]) -> types.Functi
 def _pieces(item: Any, seen: set[int]) -> Iterator[str]:
     """Walk over everything that determines compiled code, as strings in a fixed order."""
     if isinstance(item, Dispatcher):
+        if not item.py_func.__module__.startswith("sphframe."):
+            item._cache = NullCache()  # its own cache on disk does not notice that what it calls has changed
         for option in sorted(item.targetoptions):
             yield from _pieces((option, item.targetoptions[option]), seen)
-        item = item.py_func
-    if isinstance(item, types.FunctionType):
+    item = _source(item)
+    if isinstance(item, types.FunctionType | type | types.ModuleType):
+        name = f"{getattr(item, '__module__', '')} {getattr(item, '__qualname__', item.__name__)}"
         if id(item) in seen:
-            yield f"again {item.__qualname__}"
+            yield f"again {name}"
             return
         seen.add(id(item))
-        yield f"function {item.__module__} {item.__qualname__.split('<locals>')[-1]}"
-        yield repr(item.__defaults__)
+        yield name.split("<locals>")[-1]
+    if isinstance(item, types.FunctionType):
+        if _is_fixed(item.__module__):
+            return
+        yield from _pieces((item.__defaults__, tuple((item.__kwdefaults__ or {}).items())), seen)
         yield from _code_pieces(item.__code__, item.__doc__)
-        scope = inspect.getclosurevars(item)
-        for names in (scope.nonlocals, scope.globals):
-            for name in sorted(names):
-                yield name
-                yield from _pieces(names[name], seen)
-    elif isinstance(item, types.ModuleType):
-        yield f"module {item.__name__}"
+        for name, cell in zip(item.__code__.co_freevars, item.__closure__ or (), strict=True):
+            yield name
+            yield from _pieces(cell.cell_contents, seen)
+        yield from _used(item.__globals__, _names(item.__code__), seen)
+    elif isinstance(item, type) and hasattr(item, "class_type"):  # a jitclass
+        yield from _pieces((repr(item.class_type), *item.class_type.methods.values()), seen)
     elif isinstance(item, np.ndarray):
         yield f"array {item.dtype} {item.shape} {item.tobytes().hex()}"
     elif isinstance(item, tuple):
@@ -130,6 +138,38 @@ def _pieces(item: Any, seen: set[int]) -> Iterator[str]:
             yield from _pieces(part, seen)
     else:
         yield _constant(item)
+
+
+def _source(item: Any) -> Any:
+    """Return the Python function behind what Numba's decorators return; anything else as it is."""
+    if isinstance(item, property | staticmethod | classmethod):
+        item = item.fget if isinstance(item, property) else item.__func__
+    for attribute in ("_dispatcher", "py_func", "_pyfunc", "_defn"):  # vectorize, njit, guvectorize; cfunc; intrinsic
+        if type(item).__module__.startswith("numba."):
+            item = getattr(item, attribute, item)
+    return item
+
+
+def _used(scope: Mapping[str, Any], names: set[str], seen: set[int]) -> Iterator[str]:
+    """Walk over what ``names`` mean in ``scope``, and over the attributes of modules and classes with these names."""
+    for name in sorted(names & scope.keys()):
+        item = scope[name]
+        yield name
+        yield from _pieces(item, seen)
+        own = item.__name__ if isinstance(item, types.ModuleType) else getattr(item, "__module__", "")
+        if isinstance(item, types.ModuleType | type) and not _is_fixed(own):
+            found = {key: getattr(item, key) for key in names if hasattr(item, key)}
+            yield from _used(found, names - {name}, seen)
+
+
+def _is_fixed(module: str | None) -> bool:
+    return (module or "").partition(".")[0] in _FIXED
+
+
+def _names(code: types.CodeType) -> set[str]:
+    """Return the names of globals and attributes that ``code`` and the functions inside of it use."""
+    inner = (_names(constant) for constant in code.co_consts if isinstance(constant, types.CodeType))
+    return set(code.co_names).union(*inner)
 
 
 def _constant(item: Any) -> str:

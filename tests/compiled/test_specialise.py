@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import types
 from pathlib import Path
 
 import numba
@@ -78,6 +79,40 @@ def test_fingerprint_sees_every_change(first, second):
     assert prints[0] == prints[2]
 
 
+HELPERS = {
+    "a constant of a module": ("ALPHA = {}", "import h\ndef f(x): return h.ALPHA * x"),
+    "a constant of a module in a module": ("import h\nALPHA = {}", "import h\ndef f(x): return h.h.ALPHA * x"),
+    "a function of a module": (
+        "import numba\n@numba.njit\ndef g(x): return {} * x",
+        "import h\ndef f(x): return h.g(x)",
+    ),
+    "a ufunc": ("import numba\n@numba.vectorize\ndef g(x): return {} * x", "from h import g\ndef f(x): return g(x)"),
+    "an intrinsic": (
+        "from numba.extending import intrinsic\n@intrinsic\ndef g(context, x): return x(x), {}",
+        "from h import g\ndef f(x): return g(x)",
+    ),
+    "a global of an inner function": (
+        "ALPHA = {}",
+        "from h import ALPHA\ndef f(x):\n  def inner(y): return ALPHA * y\n  return inner(x)",
+    ),
+    "an attribute of a class": ("class C:\n  ALPHA = {}", "from h import C\ndef f(x): return C.ALPHA * x"),
+    "a keyword": ("", "def f(x, *, alpha={}): return alpha * x"),
+}
+
+
+@pytest.mark.parametrize("what", HELPERS)
+def test_fingerprint_sees_what_is_reached_through(what, monkeypatch):
+    prints = []
+    for number in (2, 9, 2):
+        for name, source in zip(("h", "plugin"), HELPERS[what], strict=True):
+            module = types.ModuleType(name)
+            monkeypatch.setitem(sys.modules, name, module)
+            exec(source.replace("{}", str(number)), module.__dict__)
+        prints.append(fingerprint(module.f))
+    assert prints[0] != prints[1]
+    assert prints[0] == prints[2]
+
+
 @pytest.mark.parametrize("other", ["f", "g"])
 def test_fingerprint_does_not_depend_on_docstrings(other):
     prints = []
@@ -130,3 +165,10 @@ def test_second_process_finds_the_loop_and_an_edited_part_makes_a_new_one(tmp_pa
     assert files() == once, "the cache must not grow when nothing changed"
     write("x + 1.0")
     assert in_new_process(tmp_path) == (4.0, 0), "an edited part must be compiled again"
+
+    (tmp_path / "plugin.py").write_text(
+        "import numba, h\n@numba.njit(cache=True)\ndef f(x): return h.ALPHA * x\ndef part(x): return f(x)\n"
+    )
+    for alpha in (2.0, 9.0):
+        (tmp_path / "h.py").write_text(f"ALPHA = {alpha}\n")
+        assert in_new_process(tmp_path) == (3.0 * alpha, 0), "a cached helper must not keep the constant of its module"
