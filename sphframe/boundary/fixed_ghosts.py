@@ -14,6 +14,9 @@ foot of the ghost. This is exact for a velocity that grows linearly from the wal
 all other cases, and where the method evaluates at the ghost, s = 1; for the correction with the mirror lift see
 :mod:`sphframe.boundary.conjugate`. For a dry point p_G = 0, u_G = u_wall.
 
+Weights at the ghost that reproduce linear fields continue the velocity through the wall. This value must not be
+reversed once more, and it says nothing about the wall. Velocities are then means with the kernel average.
+
 Reason for s: weights of zeroth order sample the fluid at a larger distance from the wall than that of the mirror point.
 Without s the normal velocity of the ghosts is too large, the divergence at the wall is wrong, and the pressure of the
 first layer drifts (in the tank at rest with the normalised method by 1.5 % of rho g H).
@@ -33,14 +36,18 @@ from typing import Any, final
 from sphframe.arrays import Array
 from sphframe.interfaces import (
     BoundaryInterpolator,
+    CompiledKernel,
     EvaluationPoint,
     Interpolated,
+    Traits,
     WallContext,
     WallParts,
     WallPoint,
     WallTraits,
     WallTreatment,
+    WeightsFunction,
 )
+from sphframe.interfaces.boundary_interpolator import kernel_average
 
 
 @final
@@ -53,6 +60,11 @@ class FixedGhosts(WallTreatment):
     def interpolator(self, chosen: BoundaryInterpolator) -> BoundaryInterpolator:
         """Return the method that the case chose."""
         return chosen
+
+    def velocity_interpolator(self, chosen: BoundaryInterpolator) -> BoundaryInterpolator | None:
+        """Return the kernel average for a method that extrapolates linear fields to the ghost."""
+        linear = chosen.traits.evaluation_point.at_ghost and chosen.traits.reproduces_degree > 0
+        return _KernelAverage() if linear else None
 
     def parts(self, context: WallContext) -> WallParts:
         """Return the assignment above."""
@@ -90,3 +102,14 @@ class FixedGhosts(WallTreatment):
 
         conjugate = context.corrected_velocity and not context.balanced_lift and point is EvaluationPoint.MIRROR
         return WallParts(assign=assign, conjugate=conjugate)
+
+
+@final
+class _KernelAverage(BoundaryInterpolator):
+    """The average at the ghost itself, for velocities."""
+
+    traits = Traits(non_negative=True, range_restricted=True, evaluation_point=EvaluationPoint.GHOST)
+
+    def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
+        """Return the kernel average."""
+        return kernel_average

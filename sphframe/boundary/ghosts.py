@@ -155,7 +155,9 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                             for d in range(DIM):
                                 lift[d] = 0.0
                             if VELOCITIES:
-                                WEIGHTS(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
+                                around = offsets[:n], distances[:n], values[:n], volumes[:n]
+                                if WEIGHTS(*around, support, lift, weights[:n]) != OK:
+                                    FALLBACK(*around, support, lift, weights[:n])
                 statuses[g] = status
 
                 total = 0.0

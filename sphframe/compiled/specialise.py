@@ -108,7 +108,8 @@ def _pieces(item: Any, seen: set[int]) -> Iterator[str]:
     """Walk over everything that determines compiled code, as strings in a fixed order."""
     if isinstance(item, Dispatcher):
         if not item.py_func.__module__.startswith("sphframe."):
-            item._cache = NullCache()  # its own cache on disk does not notice that what it calls has changed
+            # its own cache on disk does not notice that what it calls has changed
+            item._cache = NullCache()  # type: ignore[attr-defined]
         for option in sorted(item.targetoptions):
             yield from _pieces((option, item.targetoptions[option]), seen)
     item = _source(item)

@@ -27,6 +27,7 @@ CHECKS: dict[str, CheckFunction] = {
     "repeatable": compiled.check_repeatable,
     "plain_python_agrees": compiled.check_plain_python_agrees,
     "solver_agrees": solver.check_solver_agrees,
+    "shear": solver.check_shear,
     "writes_only_out": compiled.check_writes_only_out,
     "no_allocation": compiled.check_no_allocation,
 }
