@@ -18,8 +18,8 @@ extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ex
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3
 include_patterns = [
-    "index.md", "commands.md", "shapes.md", "methods.md", "walls.md", "flows.md", "theory/*.md", "gallery.md",
-    "gallery_shapes.md", "notebooks/*.ipynb",
+    "index.md", "commands.md", "shapes.md", "methods.md", "walls.md", "order.md", "flows.md", "theory/*.md",
+    "gallery.md", "gallery_shapes.md", "notebooks/*.ipynb",
     "tutorial_plugin.md", "tutorial_treatment.md", "write_a_study.md", "api.md", "comparison.md", "performance.md",
     "reproduction/*.md", "development.md",
 ]  # fmt: skip

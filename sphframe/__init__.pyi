@@ -33,6 +33,8 @@ from sphframe.interfaces import Interpolated as Interpolated
 from sphframe.interfaces import Kernel as Kernel
 from sphframe.interfaces import Motion as Motion
 from sphframe.interfaces import Neighbours as Neighbours
+from sphframe.interfaces import Order as Order
+from sphframe.interfaces import Orders as Orders
 from sphframe.interfaces import RateFunction as RateFunction
 from sphframe.interfaces import RigidBody as RigidBody
 from sphframe.interfaces import Seen as Seen

@@ -39,6 +39,8 @@ from sphframe.interfaces import (
     CompiledKernel,
     EvaluationPoint,
     Interpolated,
+    Order,
+    Orders,
     Traits,
     WallContext,
     WallParts,
@@ -49,13 +51,18 @@ from sphframe.interfaces import (
 )
 from sphframe.interfaces.boundary_interpolator import kernel_average
 
+_ORDERS = Orders(
+    pressure=Order(2, 0), divergence=Order(1, 1), viscosity=Order(0, 0), shear=Order(2, 2),
+    slip_divergence=Order(2, 0), slip_viscosity=Order(0, -1),
+)  # fmt: skip
+
 
 @final
 @dataclass(frozen=True)
 class FixedGhosts(WallTreatment):
     """Ghosts behind the wall, to which the case's interpolator interpolates the fluid."""
 
-    traits = WallTraits(exact_constant=True, exact_hydrostatic=True)
+    traits = WallTraits(exact_constant=True, exact_hydrostatic=True, order=_ORDERS)
 
     def interpolator(self, chosen: BoundaryInterpolator) -> BoundaryInterpolator:
         """Return the method that the case chose."""

@@ -45,18 +45,19 @@ _MARKS = {
 _BROKEN = ("broken: ", "bold red")
 
 
-def verify_command(names: Sequence[str], *, as_json: bool, as_markdown: bool) -> None:
+def verify_command(names: Sequence[str], *, as_json: bool, as_markdown: bool, order: bool = False) -> None:
     """Verify components; exit with 1 when one violates its declared traits."""
-    raise typer.Exit(verify(names, as_json=as_json, as_markdown=as_markdown))
+    raise typer.Exit(verify(names, as_json=as_json, as_markdown=as_markdown, order=order))
 
 
-def verify(names: Sequence[str] = (), *, as_json: bool = False, as_markdown: bool = False) -> int:
+def verify(names: Sequence[str] = (), *, as_json: bool = False, as_markdown: bool = False, order: bool = False) -> int:
     """Check components against their declared traits, and print a table and every failure.
 
     Parameters
     ----------
     names: as for :func:`sphframe.testing.verify`; all interpolation methods and wall treatments by default.
     as_json, as_markdown: print JSON, or tables in Markdown, in place of tables of text.
+    order: measure orders of convergence near walls instead, see :func:`sphframe.testing.measure_order`.
 
     Returns
     -------
@@ -71,6 +72,10 @@ def verify(names: Sequence[str] = (), *, as_json: bool = False, as_markdown: boo
     if find_spec("hypothesis") is None:
         raise InputError("the verification suite needs hypothesis: python -m pip install 'sphframe[testing]'")
     allow_imports_from_here(names)
+    if order:
+        from sphframe.cli.verify_order import verify_order
+
+        return verify_order(names, as_json=as_json, as_markdown=as_markdown)
     from sphframe.testing import verify as reports_of
 
     if as_json:

@@ -46,8 +46,19 @@ def wall_groups(
                 ' faces where it repeats itself: give shape = "box" and open_faces such as ["-y", "+y"]'
             )
         return groups
-    whole = shapely.geometrycollections([region.geometry(CHORD * spacing) for region in fluid])
-    return [(body, PlaneWalls(own, whole, spacing, periods)) for body, own in members.items()]
+    if not periods:
+        return [(body, _plane_walls(tuple(own.items()), tuple(fluid), spacing)) for body, own in members.items()]
+    return [(body, PlaneWalls(own, _whole(fluid, spacing), spacing, periods)) for body, own in members.items()]
+
+
+def _whole(fluid: Sequence[Shape], spacing: float) -> shapely.Geometry:
+    return shapely.geometrycollections([region.geometry(CHORD * spacing) for region in fluid])
+
+
+@lru_cache(maxsize=32)
+def _plane_walls(walls: tuple[tuple[int, Wall], ...], fluid: tuple[Shape, ...], spacing: float) -> PlaneWalls:
+    """Return walls that are kept, since the same ones are compared with other treatments or methods."""
+    return PlaneWalls(dict(walls), _whole(fluid, spacing), spacing)
 
 
 def _solid_group(walls: Mapping[int, Wall], fluid: Sequence[Shape], spacing: float) -> WallGroup:

@@ -8,6 +8,7 @@ from sphframe.interfaces.boundary_interpolator import BoundaryInterpolator, Weig
 from sphframe.interfaces.equation_of_state import EquationOfState
 from sphframe.interfaces.integrator import Integrator, System
 from sphframe.interfaces.kernel import CompiledKernel, Kernel
+from sphframe.interfaces.order import Order, Orders
 from sphframe.interfaces.rigid_body import Motion, RigidBody, Solid, Surroundings
 from sphframe.interfaces.run_view import Fields, ResumableRun, RunView, WallLoad
 from sphframe.interfaces.traits import DRY, OK, SINGULAR, TOO_FEW, EvaluationPoint, Status, Traits
@@ -52,6 +53,8 @@ __all__ = [
     "Kernel",
     "Motion",
     "Neighbours",
+    "Order",
+    "Orders",
     "RateFunction",
     "ResumableRun",
     "RigidBody",

@@ -7,6 +7,8 @@ point a method returns a :class:`Status`, since it must not raise inside a compi
 import enum
 from dataclasses import dataclass
 
+from sphframe.interfaces.order import NOTHING, Orders
+
 
 class Status(enum.IntEnum):
     """Result of the interpolation to one evaluation point; compiled functions use integers of the same names."""
@@ -77,6 +79,7 @@ class Traits:
     volume_independent: the weights do not depend on the particles' volumes.
     continuous: the weights are continuous in the evaluation point while no particle enters or leaves the support.
     evaluation_point: where the field of a ghost particle is evaluated.
+    order: orders of convergence near walls, of fixed ghosts to which the method interpolates.
     """
 
     partition_of_unity: bool = True
@@ -89,3 +92,4 @@ class Traits:
     volume_independent: bool = False
     continuous: bool = True
     evaluation_point: EvaluationPoint = EvaluationPoint.MIRROR
+    order: Orders = NOTHING

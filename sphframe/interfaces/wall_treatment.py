@@ -16,6 +16,7 @@ from sphframe.arrays import Array
 from sphframe.interfaces.boundary_interpolator import BoundaryInterpolator
 from sphframe.interfaces.equation_of_state import StateFunction
 from sphframe.interfaces.kernel import CompiledKernel
+from sphframe.interfaces.order import NOTHING, Orders
 
 
 class WallGeometry(StrEnum):
@@ -245,6 +246,7 @@ class WallTraits:
     momentum: fluid and walls together conserve momentum. False where sums are divided by gamma.
     conjugate: without viscosity, diffusion and gravity a wall at rest does no work.
     dimensions: numbers of dimensions in which it works.
+    order: orders of convergence near walls, also curved ones, with options of the case at their defaults.
     """
 
     exact_constant: bool = False
@@ -254,6 +256,7 @@ class WallTraits:
     momentum: bool = True
     conjugate: bool = False
     dimensions: tuple[int, ...] = (2, 3)
+    order: Orders = NOTHING
 
 
 class WallTreatment(ABC):

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from sphframe.testing.evaluation import Outcome, evaluate
     from sphframe.testing.neighbourhoods import FAMILIES, Cloud, catalogue
+    from sphframe.testing.order import Fit, OrderReport, measure_order, verify_order
     from sphframe.testing.proof import BrokenPromiseError
     from sphframe.testing.strategies import clouds
     from sphframe.testing.suite import Check, checks_of, parametrize_with_checks
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "sphframe.testing.neighbourhoods": ["FAMILIES", "Cloud", "catalogue"],
     "sphframe.testing.evaluation": ["Outcome", "evaluate"],
+    "sphframe.testing.order": ["Fit", "OrderReport", "measure_order", "verify_order"],
     "sphframe.testing.proof": ["BrokenPromiseError"],
     "sphframe.testing.strategies": ["clouds"],
     "sphframe.testing.suite": ["Check", "checks_of", "parametrize_with_checks"],
@@ -39,6 +41,8 @@ __all__ = [
     "BrokenPromiseError",
     "Check",
     "Cloud",
+    "Fit",
+    "OrderReport",
     "Outcome",
     "Report",
     "WallResiduals",
@@ -46,9 +50,11 @@ __all__ = [
     "checks_of",
     "clouds",
     "evaluate",
+    "measure_order",
     "parametrize_with_checks",
     "poiseuille_error",
     "verify",
+    "verify_order",
     "wall_residuals",
 ]
 

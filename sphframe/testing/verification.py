@@ -110,14 +110,19 @@ def verify(names: Sequence[str] = (), *, progress: Callable[[str], None] | None 
     ------
     UnknownComponentError: when nothing has one of the names.
     """
-    chosen: list[_Choice] = []
-    for name in names or ("interpolators", "wall_treatments"):
-        chosen += _installed(name) if name in KINDS else [_find(name)]
-    for kind, label, name, options in chosen:
+    for kind, label, name, options in choices(names):
         yield _report(kind, label, name, options, progress or (lambda text: None))
 
 
 _Choice = tuple[str, str, str, dict[str, Any]]
+
+
+def choices(names: Sequence[str]) -> list[_Choice]:
+    """Return kind, label, name and options of the components with ``names`` as for :func:`verify`."""
+    chosen: list[_Choice] = []
+    for name in names or ("interpolators", "wall_treatments"):
+        chosen += _installed(name) if name in KINDS else [_find(name)]
+    return chosen
 
 
 def _find(label: str) -> _Choice:

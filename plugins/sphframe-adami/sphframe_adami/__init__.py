@@ -10,6 +10,8 @@ from sphframe import (
     CompiledKernel,
     EvaluationPoint,
     Interpolated,
+    Order,
+    Orders,
     Traits,
     WallContext,
     WallParts,
@@ -20,6 +22,16 @@ from sphframe import (
 )
 
 __all__ = ["Adami", "AdamiWalls"]
+
+
+_AT_GHOST = Orders(
+    pressure=Order(1, 1), divergence=Order(1, 0), viscosity=Order(-1, -2), shear=Order(1, None),
+    slip_divergence=Order(0, 0), slip_viscosity=Order(-1, -1),
+)  # fmt: skip
+_WALLS = Orders(
+    pressure=Order(1, 1), divergence=Order(1, 1), viscosity=Order(-1, -2), shear=Order(1, None),
+    slip_divergence=Order(0, 0), slip_viscosity=Order(-1, -1),
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -39,7 +51,7 @@ class Adami(BoundaryInterpolator):
     Source: Adami, Hu & Adams (2012), doi:10.1016/j.jcp.2012.05.005.
     """
 
-    traits = Traits(non_negative=True, range_restricted=True, evaluation_point=EvaluationPoint.GHOST)
+    traits = Traits(non_negative=True, range_restricted=True, evaluation_point=EvaluationPoint.GHOST, order=_AT_GHOST)
 
     def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
         """Return the weights function; it uses only the kernel values and the volumes."""
@@ -77,7 +89,7 @@ class AdamiWalls(WallTreatment):
     Source: Adami, Hu & Adams (2012), doi:10.1016/j.jcp.2012.05.005, Eqs. 22 to 27.
     """
 
-    traits = WallTraits(exact_constant=True, exact_hydrostatic=True)
+    traits = WallTraits(exact_constant=True, exact_hydrostatic=True, order=_WALLS)
 
     def interpolator(self, chosen: BoundaryInterpolator) -> BoundaryInterpolator:
         """Return the kernel average at the ghost."""

@@ -8,6 +8,8 @@ from sphframe import (
     Array,
     FluidSide,
     Interpolated,
+    Order,
+    Orders,
     Seen,
     Separation,
     WallContext,
@@ -20,6 +22,12 @@ from sphframe import (
 )
 
 __all__ = ["Akinci"]
+
+
+_LAYERS = Orders(
+    pressure=Order(0, 0, 0.3126), divergence=Order(1, 1), viscosity=Order(-1, -1), shear=Order(1, 1),
+    slip_divergence=Order(0, 0), slip_viscosity=Order(-1, -1),
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -54,7 +62,9 @@ class Akinci(WallTreatment):
     @property
     def traits(self) -> WallTraits:
         """A row is not exact for uniform pressure."""
-        return WallTraits(exact_constant=not self.row, dimensions=(2,) if self.row else (2, 3))
+        if self.row:
+            return WallTraits(dimensions=(2,))
+        return WallTraits(exact_constant=True, order=_LAYERS)
 
     def parts(self, context: WallContext) -> WallParts:
         """Return the function of a pair, and the volumes of a row."""

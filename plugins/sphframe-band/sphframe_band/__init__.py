@@ -9,6 +9,8 @@ from sphframe import (
     BoundaryInterpolator,
     EvaluationPoint,
     Interpolated,
+    Order,
+    Orders,
     WallContext,
     WallParts,
     WallPoint,
@@ -19,10 +21,16 @@ from sphframe import (
 __all__ = ["Band", "LinearAtGhost"]
 
 
+_WALLS = Orders(
+    pressure=Order(1, 1), divergence=Order(1, 1), viscosity=Order(-1, -1), shear=Order(1, 1),
+    slip_divergence=Order(0, 0), slip_viscosity=Order(-1, -1),
+)  # fmt: skip
+
+
 class LinearAtGhost(LinearMLS):
     """Linear moving least squares, evaluated at the ghost instead of the mirror point."""
 
-    traits = replace(LinearMLS.traits, evaluation_point=EvaluationPoint.GHOST)
+    traits = replace(LinearMLS.traits, evaluation_point=EvaluationPoint.GHOST, order=Orders())
 
 
 @dataclass(frozen=True)
@@ -44,7 +52,7 @@ class Band(WallTreatment):
     Source: S. Band, C. Gissler, A. Peer, M. Teschner (2018), doi:10.1016/j.cag.2018.08.001.
     """
 
-    traits = WallTraits(exact_constant=True, exact_hydrostatic=True)
+    traits = WallTraits(exact_constant=True, exact_hydrostatic=True, order=_WALLS)
 
     def interpolator(self, chosen: BoundaryInterpolator) -> BoundaryInterpolator:
         """Return moving least squares at the ghost."""

@@ -7,6 +7,8 @@ from sphframe import (
     BoundaryInterpolator,
     FixedGhosts,
     FluidSide,
+    Order,
+    Orders,
     Seen,
     Separation,
     WallContext,
@@ -20,6 +22,13 @@ __all__ = ["DistanceRatio"]
 
 _NEAREST = 0.25
 """least distance of a fluid particle from the wall, in particle spacings"""
+
+
+_RATIO = Orders(
+    pressure=Order(2, 0), divergence=Order(1, 1), viscosity=Order(0, -1), shear=Order(2, None),
+    slip_divergence=Order(2, 0), slip_viscosity=Order(-1, -1),
+)  # fmt: skip
+_CAPPED = replace(_RATIO, viscosity=Order(-1, -1), shear=Order(1, None))
 
 
 @dataclass(frozen=True)
@@ -57,7 +66,9 @@ class DistanceRatio(WallTreatment):
     @property
     def traits(self) -> WallTraits:
         """Shear is exact without a cap."""
-        return WallTraits(exact_constant=True, exact_hydrostatic=True, exact_shear=self.cap is None)
+        exact = self.cap is None
+        order = _RATIO if exact else _CAPPED
+        return WallTraits(exact_constant=True, exact_hydrostatic=True, exact_shear=exact, order=order)
 
     def interpolator(self, chosen: BoundaryInterpolator) -> BoundaryInterpolator:
         """Return the method that the case chose."""

@@ -3,9 +3,26 @@
 from dataclasses import dataclass
 from typing import Any
 
-from sphframe import Array, Interpolated, Neighbours, WallContext, WallParts, WallPoint, WallTraits, WallTreatment
+from sphframe import (
+    Array,
+    Interpolated,
+    Neighbours,
+    Order,
+    Orders,
+    WallContext,
+    WallParts,
+    WallPoint,
+    WallTraits,
+    WallTreatment,
+)
 
 __all__ = ["Dynamic"]
+
+
+_ORDERS = Orders(
+    pressure=Order(-1, -1, 2.937e-5), divergence=Order(1, 1), viscosity=Order(-1, -1), shear=Order(1, 1),
+    slip_divergence=Order(0, 0), slip_viscosity=Order(-2, -2),
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -36,7 +53,7 @@ class Dynamic(WallTreatment):
     diffusion: float = 0.0
     """delta of the wall particles, 1; 0.1 is usual in the fluid"""
 
-    traits = WallTraits()
+    traits = WallTraits(order=_ORDERS)
 
     def __post_init__(self) -> None:
         if not self.diffusion >= 0.0:

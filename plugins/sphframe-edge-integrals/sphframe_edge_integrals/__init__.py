@@ -3,12 +3,27 @@
 from dataclasses import dataclass
 from typing import Any
 
-from sphframe import Edge, FluidSide, WallContext, WallGeometry, WallParts, WallSide, WallTraits, WallTreatment
+from sphframe import (
+    Edge,
+    FluidSide,
+    Order,
+    Orders,
+    WallContext,
+    WallGeometry,
+    WallParts,
+    WallSide,
+    WallTraits,
+    WallTreatment,
+)
 
 __all__ = ["EdgeIntegrals"]
 
 _NEAREST = 0.1
 """least distance of a fluid particle from the wall in the viscous force, in particle spacings"""
+_ORDERS = Orders(
+    pressure=Order(-1, -1, 1.715), divergence=Order(1, 1), viscosity=Order(-1, -1, 1.315), shear=Order(1, 1),
+    slip_divergence=Order(0, 0, 0.05583), slip_viscosity=Order(-1, -1),
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -38,7 +53,7 @@ class EdgeIntegrals(WallTreatment):
     integrals over edges as in M. Ferrand et al. (2013), doi:10.1002/fld.3666.
     """
 
-    traits = WallTraits(conjugate=True, dimensions=(2,))
+    traits = WallTraits(conjugate=True, dimensions=(2,), order=_ORDERS)
     geometry = WallGeometry.ROW
 
     def parts(self, context: WallContext) -> WallParts:

@@ -11,6 +11,8 @@ from sphframe import (
     CompiledKernel,
     EvaluationPoint,
     Interpolated,
+    Order,
+    Orders,
     Traits,
     WallContext,
     WallParts,
@@ -95,6 +97,12 @@ class NormalDerivative(BoundaryInterpolator):
         return weights
 
 
+_WALLS = Orders(
+    pressure=Order(1, 1), divergence=Order(1, 1), viscosity=Order(-1, -1), shear=Order(1, 1),
+    slip_divergence=Order(0, 0), slip_viscosity=Order(-1, -1),
+)  # fmt: skip
+
+
 @dataclass(frozen=True)
 class Hashemi(WallTreatment):
     """The pressure of a wall particle fulfils the momentum equation along the normal n; velocity of the wall.
@@ -116,7 +124,7 @@ class Hashemi(WallTreatment):
     Source: M. R. Hashemi, R. Fatehi, M. T. Manzari (2012), doi:10.1016/j.ijnonlinmec.2011.10.007.
     """
 
-    traits = WallTraits(exact_constant=True, exact_hydrostatic=True)
+    traits = WallTraits(exact_constant=True, exact_hydrostatic=True, order=_WALLS)
 
     def interpolator(self, chosen: BoundaryInterpolator) -> BoundaryInterpolator:
         """Return the weights of the normal derivative."""

@@ -9,6 +9,8 @@ from sphframe import (
     BoundaryInterpolator,
     CompiledKernel,
     EvaluationPoint,
+    Order,
+    Orders,
     Traits,
     WeightsFunction,
     local_array,
@@ -18,6 +20,12 @@ __all__ = ["MDBC"]
 
 _THINNEST = 1e-8
 """smallest pivot, relative to its scale"""
+
+
+_ORDERS = Orders(
+    pressure=Order(1, 1), divergence=Order(1, 1), viscosity=Order(0, 0), shear=Order(2, 2),
+    slip_divergence=Order(2, 0), slip_viscosity=Order(0, -1),
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -42,7 +50,9 @@ class MDBC(BoundaryInterpolator):
     amplification: float = 10.0
     """largest accepted sum |Phi_j|, the factor by which noise may be amplified"""
 
-    traits = Traits(reproduces_degree=1, fewest_points=(3, 4), evaluation_point=EvaluationPoint.EXTRAPOLATED)
+    traits = Traits(
+        reproduces_degree=1, fewest_points=(3, 4), evaluation_point=EvaluationPoint.EXTRAPOLATED, order=_ORDERS
+    )
 
     def __post_init__(self) -> None:
         if not self.amplification >= 1.0:

@@ -8,6 +8,8 @@ from sphframe import (
     CompiledKernel,
     EvaluationPoint,
     Interpolated,
+    Order,
+    Orders,
     Traits,
     WallContext,
     WallParts,
@@ -18,11 +20,24 @@ from sphframe import (
 )
 from sphframe_mdbc import MDBC
 
+_WALLS = Orders(
+    pressure=Order(1, 1), divergence=Order(1, 1), viscosity=Order(-1, -1), shear=Order(1, 1),
+    slip_divergence=Order(0, 0), slip_viscosity=Order(-1, -1),
+)  # fmt: skip
+_PUBLISHED = Orders(
+    pressure=Order(1, 1), divergence=Order(1, 1), viscosity=Order(-1, -2), shear=Order(1, None),
+    slip_divergence=Order(0, 0), slip_viscosity=Order(-1, -1),
+)  # fmt: skip
+_CORRECTED = Orders(
+    pressure=Order(1, 1), divergence=Order(1, 1), viscosity=Order(0, 0, 0.4741), shear=Order(2, 2),
+    slip_divergence=Order(0, 0), slip_viscosity=Order(-1, -1, 3.381),
+)  # fmt: skip
+
 
 class AtMirror(MDBC):
     """The first-order consistent value at the mirror point, without extrapolation."""
 
-    traits = replace(MDBC.traits, evaluation_point=EvaluationPoint.MIRROR)
+    traits = replace(MDBC.traits, evaluation_point=EvaluationPoint.MIRROR, order=Orders())
 
 
 @dataclass(frozen=True)
@@ -57,7 +72,7 @@ class MDBC2022(WallTreatment):
     amplification: float = 10.0
     """largest accepted sum |Phi_j|, the factor by which noise may be amplified"""
 
-    traits = WallTraits(exact_constant=True, exact_hydrostatic=True)
+    traits = WallTraits(exact_constant=True, exact_hydrostatic=True, order=_WALLS)
 
     def interpolator(self, chosen: BoundaryInterpolator) -> BoundaryInterpolator:
         """Return the extrapolating weights."""
@@ -114,7 +129,9 @@ class MDBC2025(WallTreatment):
     @property
     def traits(self) -> WallTraits:
         """Shear is exact with the corrected velocity."""
-        return WallTraits(exact_constant=True, exact_hydrostatic=True, exact_shear=self.velocity == "corrected")
+        exact = self.velocity == "corrected"
+        order = _CORRECTED if exact else _PUBLISHED
+        return WallTraits(exact_constant=True, exact_hydrostatic=True, exact_shear=exact, order=order)
 
     def interpolator(self, chosen: BoundaryInterpolator) -> BoundaryInterpolator:
         """Return the first-order weights at the mirror point."""

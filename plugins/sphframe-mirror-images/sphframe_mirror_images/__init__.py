@@ -3,9 +3,26 @@
 from dataclasses import dataclass
 from typing import Any
 
-from sphframe import Array, Interpolated, WallContext, WallGeometry, WallParts, WallPoint, WallTraits, WallTreatment
+from sphframe import (
+    Array,
+    Interpolated,
+    Order,
+    Orders,
+    WallContext,
+    WallGeometry,
+    WallParts,
+    WallPoint,
+    WallTraits,
+    WallTreatment,
+)
 
 __all__ = ["MirrorImages"]
+
+
+_ORDERS = Orders(
+    pressure=Order(2, -1), divergence=Order(1, 0), viscosity=Order(0, -1), shear=Order(2, None),
+    slip_divergence=Order(2, 0), slip_viscosity=Order(0, -1),
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -32,7 +49,7 @@ class MirrorImages(WallTreatment):
     """
 
     traits = WallTraits(
-        exact_constant=True, exact_hydrostatic=True, exact_shear=True, exact_normal=True, conjugate=True
+        exact_constant=True, exact_hydrostatic=True, exact_shear=True, exact_normal=True, conjugate=True, order=_ORDERS
     )
     geometry = WallGeometry.IMAGES
 

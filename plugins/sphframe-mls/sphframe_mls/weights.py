@@ -2,12 +2,33 @@
 
 from dataclasses import dataclass
 
-from sphframe import OK, SINGULAR, TOO_FEW, BoundaryInterpolator, CompiledKernel, Traits, WeightsFunction, local_array
+from sphframe import (
+    OK,
+    SINGULAR,
+    TOO_FEW,
+    BoundaryInterpolator,
+    CompiledKernel,
+    Order,
+    Orders,
+    Traits,
+    WeightsFunction,
+    local_array,
+)
 
 _THINNEST = 1e-8
 """smallest pivot, relative to the scale of its degree: the square of the relative thickness of the cloud"""
 _LEAST_SHARE = 0.01
 """smallest pivot of the constant over sum W_j V_j: the share of the constant that the other terms do not reproduce"""
+
+
+_LINEAR = Orders(
+    pressure=Order(1, 1), divergence=Order(1, 1), viscosity=Order(0, 0), shear=Order(2, 2),
+    slip_divergence=Order(2, 0), slip_viscosity=Order(0, -1),
+)  # fmt: skip
+_QUADRATIC = Orders(
+    pressure=Order(2, 1), divergence=Order(1, 1), viscosity=Order(0, 0), shear=Order(2, 2),
+    slip_divergence=Order(2, 0), slip_viscosity=Order(0, -1),
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -30,7 +51,7 @@ class LinearMLS(BoundaryInterpolator):
     amplification: float = 3.0
     """largest accepted sum |Phi_j|, the factor by which noise may be amplified"""
 
-    traits = Traits(reproduces_degree=1, fewest_points=(3, 4))
+    traits = Traits(reproduces_degree=1, fewest_points=(3, 4), order=_LINEAR)
 
     def __post_init__(self) -> None:
         _check_amplification(self.amplification)
@@ -53,7 +74,7 @@ class QuadraticMLS(BoundaryInterpolator):
     amplification: float = 3.0
     """largest accepted sum |Phi_j|, the factor by which noise may be amplified"""
 
-    traits = Traits(reproduces_degree=2, fewest_points=(6, 10))
+    traits = Traits(reproduces_degree=2, fewest_points=(6, 10), order=_QUADRATIC)
 
     def __post_init__(self) -> None:
         _check_amplification(self.amplification)

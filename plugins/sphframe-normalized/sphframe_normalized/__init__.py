@@ -2,9 +2,15 @@
 
 from dataclasses import dataclass
 
-from sphframe import OK, TOO_FEW, BoundaryInterpolator, CompiledKernel, Traits, WeightsFunction
+from sphframe import OK, TOO_FEW, BoundaryInterpolator, CompiledKernel, Order, Orders, Traits, WeightsFunction
 
 __all__ = ["Normalized"]
+
+
+_ORDERS = Orders(
+    pressure=Order(1, 1), divergence=Order(1, 1), viscosity=Order(0, 0), shear=Order(2, 2),
+    slip_divergence=Order(2, 0), slip_viscosity=Order(0, -1),
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -17,7 +23,7 @@ class Normalized(BoundaryInterpolator):
     Source: Randles & Libersky (1996), doi:10.1016/S0045-7825(96)01090-0; Huang et al., Water 11 (2019).
     """
 
-    traits = Traits(non_negative=True, range_restricted=True)
+    traits = Traits(non_negative=True, range_restricted=True, order=_ORDERS)
 
     def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
         """Return the weights function; it uses only the kernel values and the volumes."""

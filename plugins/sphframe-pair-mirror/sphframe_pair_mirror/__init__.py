@@ -1,11 +1,29 @@
 """Walls that mirror each fluid particle, pair by pair, and conserve energy, for sphframe."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from sphframe import FluidSide, Seen, Separation, WallContext, WallParts, WallSide, WallTraits, WallTreatment
+from sphframe import (
+    FluidSide,
+    Order,
+    Orders,
+    Seen,
+    Separation,
+    WallContext,
+    WallParts,
+    WallSide,
+    WallTraits,
+    WallTreatment,
+)
 
 __all__ = ["PairMirror"]
+
+
+_LIFTED = Orders(
+    pressure=Order(0, 0, 0.1502), divergence=Order(1, 1), viscosity=Order(-1, -1), shear=Order(1, None),
+    slip_divergence=Order(0, 0, 0.05261), slip_viscosity=Order(-1, -1),
+)  # fmt: skip
+_NOT_LIFTED = replace(_LIFTED, pressure=Order(0, 0))
 
 
 @dataclass(frozen=True)
@@ -36,7 +54,8 @@ class PairMirror(WallTreatment):
     @property
     def traits(self) -> WallTraits:
         """What is promised depends on the lift."""
-        return WallTraits(exact_constant=True, exact_hydrostatic=self.lift, conjugate=True)
+        order = _LIFTED if self.lift else _NOT_LIFTED
+        return WallTraits(exact_constant=True, exact_hydrostatic=self.lift, conjugate=True, order=order)
 
     def parts(self, context: WallContext) -> WallParts:
         """Return the function of a pair."""

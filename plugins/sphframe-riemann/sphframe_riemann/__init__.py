@@ -3,9 +3,26 @@
 from dataclasses import dataclass
 from typing import Any
 
-from sphframe import FluidSide, Seen, Separation, WallContext, WallParts, WallSide, WallTraits, WallTreatment
+from sphframe import (
+    FluidSide,
+    Order,
+    Orders,
+    Seen,
+    Separation,
+    WallContext,
+    WallParts,
+    WallSide,
+    WallTraits,
+    WallTreatment,
+)
 
 __all__ = ["Riemann"]
+
+
+_ORDERS = Orders(
+    pressure=Order(0, 0, 0.1502), divergence=Order(1, 1), viscosity=Order(-1, -1), shear=Order(1, None),
+    slip_divergence=Order(0, 0, 0.05261), slip_viscosity=Order(-1, -1),
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -34,7 +51,7 @@ class Riemann(WallTreatment):
     limiter: float = 3.0
     """eta; 0 leaves the dissipation out"""
 
-    traits = WallTraits(exact_constant=True, exact_hydrostatic=True)
+    traits = WallTraits(exact_constant=True, exact_hydrostatic=True, order=_ORDERS)
 
     def __post_init__(self) -> None:
         if not self.limiter >= 0.0:

@@ -13,6 +13,8 @@ from sphframe import (
     EvaluationPoint,
     FluidSide,
     Interpolated,
+    Order,
+    Orders,
     Traits,
     WallContext,
     WallGeometry,
@@ -28,6 +30,10 @@ __all__ = ["AverageOnWall", "SemiAnalytical"]
 
 _NEAREST = 0.1
 """least distance of a fluid particle from the wall in the viscous force, in particle spacings"""
+_ORDERS = Orders(
+    pressure=Order(-1, -1, 2.212), divergence=Order(1, 0), viscosity=Order(-1, -1, 1.899), shear=Order(1, None),
+    slip_divergence=Order(0, 0, 0.01005), slip_viscosity=Order(-1, -1),
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -80,7 +86,7 @@ class SemiAnalytical(WallTreatment):
     Source: M. Ferrand, D. R. Laurence, B. D. Rogers, D. Violeau, C. Kassiotis (2013), doi:10.1002/fld.3666.
     """
 
-    traits = WallTraits(momentum=False, dimensions=(2,))
+    traits = WallTraits(momentum=False, dimensions=(2,), order=_ORDERS)
     geometry = WallGeometry.ROW
 
     def interpolator(self, chosen: BoundaryInterpolator) -> BoundaryInterpolator:

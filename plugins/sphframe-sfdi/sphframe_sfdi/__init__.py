@@ -4,12 +4,33 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from sphframe import OK, SINGULAR, TOO_FEW, BoundaryInterpolator, CompiledKernel, Traits, WeightsFunction, local_array
+from sphframe import (
+    OK,
+    SINGULAR,
+    TOO_FEW,
+    BoundaryInterpolator,
+    CompiledKernel,
+    Order,
+    Orders,
+    Traits,
+    WeightsFunction,
+    local_array,
+)
 
 __all__ = ["SFDI"]
 
 _THINNEST = 1e-8
 """smallest pivot, relative to the mean diagonal entry: the square of the relative thickness of the cloud"""
+
+
+_COUPLED = Orders(
+    pressure=Order(1, 1), divergence=Order(1, 0), viscosity=Order(0, 0), shear=Order(2, 2),
+    slip_divergence=Order(2, 0), slip_viscosity=Order(0, -1),
+)  # fmt: skip
+_PRINTED = Orders(
+    pressure=Order(1, 0), divergence=Order(1, 0), viscosity=Order(0, 0), shear=Order(2, 2),
+    slip_divergence=Order(2, 0), slip_viscosity=Order(0, -1),
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -51,8 +72,12 @@ class SFDI(BoundaryInterpolator):
     def traits(self) -> Traits:
         """The traits of the chosen form."""
         if self.form == "coupled":
-            return Traits(reproduces_degree=1, fewest_points=(3, 4), volume_independent=True, continuous=False)
-        return Traits(fewest_points=(2, 2), rotation_invariant=False, volume_independent=True, continuous=False)
+            return Traits(
+                reproduces_degree=1, fewest_points=(3, 4), volume_independent=True, continuous=False, order=_COUPLED
+            )
+        return Traits(
+            fewest_points=(2, 2), rotation_invariant=False, volume_independent=True, continuous=False, order=_PRINTED
+        )
 
     def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
         """Return the weights function; it uses kernel values between neighbours."""

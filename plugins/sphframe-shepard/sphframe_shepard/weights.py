@@ -3,9 +3,15 @@
 import math
 from dataclasses import dataclass
 
-from sphframe import OK, BoundaryInterpolator, CompiledKernel, Traits, WeightsFunction, fast_exp
+from sphframe import OK, BoundaryInterpolator, CompiledKernel, Order, Orders, Traits, WeightsFunction, fast_exp
 
-_TRAITS = Traits(non_negative=True, range_restricted=True, interpolates_particles=True, volume_independent=True)
+_TRAITS = Traits(
+    non_negative=True, range_restricted=True, interpolates_particles=True, volume_independent=True,
+    order=Orders(
+        pressure=Order(2, 0), divergence=Order(1, 1), viscosity=Order(0, 0), shear=Order(2, 2),
+        slip_divergence=Order(2, 0), slip_viscosity=Order(0, -1),
+    ),
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
