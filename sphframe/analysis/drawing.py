@@ -11,6 +11,7 @@ from sphframe.analysis.fields import free_surface, outline_nodes
 from sphframe.analysis.scales import case_of, pressure_scale, time_scale, wall_method
 from sphframe.arrays import Array, IntArray
 from sphframe.errors import InputError
+from sphframe.geometry import to_world
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -112,10 +113,7 @@ def move_walls(lines: "Sequence[Line2D]", dataset: xr.Dataset, time: float) -> N
 
 
 def walls_at(dataset: xr.Dataset, time: float) -> list[tuple[Array, int]]:
-    """Return the polylines (n, dim) of the walls in m at ``time`` (s), each with the index of its wall.
-
-    Moving walls are displaced by the position of their body; its rotation is not applied.
-    """
+    """Return the polylines (n, dim) of the walls in m at ``time`` (s), each with the index of its wall."""
     if "outline" not in dataset.sizes:
         return []
     nodes = dataset["outline_node"].values
@@ -124,7 +122,7 @@ def walls_at(dataset: xr.Dataset, time: float) -> list[tuple[Array, int]]:
     for end, count, wall in zip(np.cumsum(counts), counts, dataset["outline_wall"].values, strict=True):
         points = nodes[end - count : end]
         if bodies[wall] >= 0:
-            points = _moved(points, dataset, int(bodies[wall]), time)
+            points = moved(points, dataset, int(bodies[wall]), time)
         result.append((points, int(wall)))
     return result
 
@@ -134,8 +132,17 @@ def triangles_at(dataset: xr.Dataset, time: float) -> tuple[Array, IntArray]:
     triangles, walls = dataset["triangle_node"].values.copy(), dataset["triangle_wall"].values
     for wall, body in enumerate(dataset["wall_body"].values):
         if body >= 0:
-            triangles[walls == wall] = _moved(triangles[walls == wall], dataset, int(body), time)
+            own = walls == wall
+            triangles[own] = moved(triangles[own].reshape(-1, 3), dataset, int(body), time).reshape(-1, 3, 3)
     return triangles, walls
+
+
+def ghosts_at(dataset: xr.Dataset, time: float) -> Array:
+    """Return the positions of the ghosts (g, dim), m, at ``time`` (s)."""
+    position, bodies = dataset["ghost_position"].values.copy(), dataset["ghost_body"].values
+    for body in np.unique(bodies[bodies >= 0]):
+        position[bodies == body] = moved(position[bodies == body], dataset, int(body), time)
+    return position
 
 
 def draw_probes(axes: "Axes", dataset: xr.Dataset) -> "list[Line2D]":
@@ -157,13 +164,16 @@ def draw_free_surface(axes: "Axes", dataset: xr.Dataset, time: float) -> None:
 
 
 def view_of(dataset: xr.Dataset, frames: Sequence[xr.Dataset]) -> View:
-    """Limits of x and of the height, m, that show the walls and the water, with little air above the water."""
-    nodes = outline_nodes(dataset)
+    """Limits of x and height, m, that show the water and the walls, which may move, in ``frames``, with little air."""
+    walls = [wall for frame in frames for wall in walls_at(dataset, float(frame["time"]))]
+    nodes = np.concatenate([outline_nodes(dataset), *(points for points, _ in walls)])
+    bodies = [points for points, wall in walls if dataset["wall_body"].values[wall] >= 0]
     positions = np.concatenate([frame["position"].values for frame in frames])
     x0, x1 = nodes[:, 0].min(), np.fmax(nodes[:, 0].max(), np.nanmax(positions[:, 0]))
     y0 = nodes[:, -1].min()
     # a few drops of spray do not determine the height
     top = max(float(np.nanpercentile(positions[:, -1], 99.8)), float(dataset.attrs["depth"]))
+    top = max([top, *(float(points[:, -1].max()) for points in bodies)])
     y1 = min(y0 + 1.15 * (top - y0), max(float(nodes[:, -1].max()), top))
     margin = 0.015 * (x1 - x0)
     return (float(x0 - margin), float(x1 + margin)), (float(y0 - margin), float(y1 + margin))
@@ -219,10 +229,18 @@ def vertical_axis(dataset: xr.Dataset) -> str:
     return "xyz"[int(dataset.attrs["dimension"]) - 1]
 
 
-def _moved(points: Array, dataset: xr.Dataset, body: int, time: float) -> Array:
-    return points + _displacement(dataset, body, time)[: points.shape[1]]
+def moved(points: Array, dataset: xr.Dataset, body: int, time: float) -> Array:
+    """Return where ``points`` (n, dim) of a ``body``, given as drawn, are at ``time`` (s), m.
 
+    The position of the body is interpolated between samples, its rotation in 3-D along the shortest way.
+    """
+    times, position = dataset["probe_time"].values, dataset["body_position"].isel(body=body).values
+    if not len(times):
+        return points
+    now = np.array([np.interp(time, times, coordinate) for coordinate in position.T])
+    if points.shape[1] == 3 and len(times) > 1:
+        from scipy.spatial.transform import Rotation, Slerp
 
-def _displacement(dataset: xr.Dataset, body: int, time: float) -> Array:
-    moved = dataset["body_position"].isel(body=body).values
-    return np.array([np.interp(time, dataset["probe_time"].values, moved[:, k]) for k in range(moved.shape[1])])
+        turning = Slerp(times, Rotation.from_rotvec(position[:, 3:]))
+        now[3:] = turning(np.clip(time, times[0], times[-1])).as_rotvec()
+    return to_world(points, now, dataset["body_centre"].isel(body=body).values)

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 import xarray as xr
 
-from sphframe.analysis.drawing import triangles_at, walls_at
+from sphframe.analysis.drawing import ghosts_at, triangles_at, walls_at
 from sphframe.analysis.fields import particles_at
 from sphframe.arrays import Array
 from sphframe.errors import InputError, OutputError
@@ -74,8 +74,7 @@ def export_csv(dataset: xr.Dataset, path: str | os.PathLike[str]) -> Path:
 def vtk_parts(dataset: xr.Dataset, time: float | None = None) -> "dict[str, pyvista.PolyData]":
     """Return those of ``fluid``, ``ghosts``, ``walls`` and ``surfaces`` that the run has, as VTK data sets.
 
-    They are those of the frame nearest to ``time``, s. The ghosts of moving walls are shown at their initial positions,
-    as the file of a run does not hold their later ones.
+    They are those of the frame nearest to ``time``, s. Walls and ghosts are where their bodies have taken them.
 
     Raises
     ------
@@ -96,7 +95,7 @@ def vtk_parts(dataset: xr.Dataset, time: float | None = None) -> "dict[str, pyvi
     parts = {"fluid": fluid}
     now = float(frame["time"])
     if "ghost_position" in dataset:
-        ghosts = pyvista.PolyData(_in_space(dataset["ghost_position"].values))
+        ghosts = pyvista.PolyData(_in_space(ghosts_at(dataset, now)))
         ghosts["pressure"] = dataset["ghost_pressure"].sel(time=now).values
         parts["ghosts"] = ghosts
     lines = walls_at(dataset, now)

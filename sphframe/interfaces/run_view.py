@@ -46,6 +46,10 @@ class GhostView(Protocol):
     def mirror(self) -> Array:
         """Present mirror points (g, dim), m."""
 
+    @property
+    def body(self) -> IntArray:
+        """Index (g,) of the body that carries each ghost, -1 for a ghost at rest."""
+
 
 @runtime_checkable
 class RunView(Protocol):

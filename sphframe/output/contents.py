@@ -214,8 +214,11 @@ def _fill_start(file: netCDF4.Dataset, simulation: RunView) -> None:
     for name, members in (("wall", scene.walls), ("probe", scene.probes), ("gauge", scene.gauges)):
         if members:
             file[f"{name}_body"][:] = [bodies[member.body] for member in members]
+    if scene.bodies:
+        file["body_centre"][:] = [(*body.centre, 0.0)[:dimension] for body in scene.bodies.values()]
     if simulation.ghost_count:
         ghosts = simulation.ghosts
+        file["ghost_body"][:] = ghosts.body
         file["ghost_position"][:] = ghosts.position
         file["ghost_mirror_position"][:] = ghosts.mirror
     file["particle_mass"][:] = simulation.masses()

@@ -97,8 +97,10 @@ VARIABLES: Mapping[str, Variable] = {
     "triangle_node": Variable(("triangle", "corner", "space"), "m", "triangles of the walls in 3-D, at the start"),
     "triangle_wall": Variable(("triangle",), "1", "index of the wall of each triangle", "i4"),
     "wall_body": Variable(("wall",), "1", "index of the body that carries the wall; -1 for a fixed wall", "i4"),
+    "body_centre": Variable(("body", "space"), "m", "centre about which the body turns, as drawn"),
     "ghost_position": Variable(("ghost", "space"), "m", "position of the ghost particle at the start"),
     "ghost_mirror_position": Variable(("ghost", "space"), "m", "mirror point of the ghost particle at the start"),
+    "ghost_body": Variable(("ghost",), "1", "index of the body that carries the ghost; -1 for a ghost at rest", "i4"),
     # samples
     "probe_time": Variable(("probe_time",), "s", "time of the samples"),
     "step": Variable(("probe_time",), "1", "steps taken", "i4"),

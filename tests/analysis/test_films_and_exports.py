@@ -10,7 +10,8 @@ import xarray as xr
 from typer.testing import CliRunner
 
 import sphframe
-from sphframe.analysis import animate_run, export_run, plot_run, references_for
+from sphframe.analysis import animate_run, export_run, plot_run, references_for, vtk_parts
+from sphframe.analysis.drawing import view_of, walls_at
 from sphframe.analysis.films import film_frames
 from sphframe.cli.app import app
 from sphframe.errors import InputError
@@ -85,6 +86,43 @@ def _read(path: Path):  # type: ignore[no-untyped-def]
     reader.SetFileName(str(path))
     reader.Update()
     return pyvista.wrap(reader.GetOutput())
+
+
+@pytest.mark.parametrize(("name", "turn"), [("tank", [0.0, 0.1, np.pi / 2]), ("tank_3d", [0, 0, 0.1, 0, np.pi / 2, 0])])
+def test_turned_bodies_are_drawn_turned(name: str, turn: list[float], request: pytest.FixtureRequest) -> None:
+    """A quarter turn about (0.2, 0.3) or the axis y there: x - 0.2 becomes the height above 0.3, less or more 0.1 m."""
+    dataset = request.getfixturevalue(name)
+    dim, end = dataset.sizes["space"], float(dataset.time[-1])
+    centre = np.array([0.2, 0.3] if dim == 2 else [0.2, 7.0, 0.3])
+    progress = dataset["probe_time"].values / end
+    made = dataset.assign(
+        body_position=(("probe_time", "body", "motion"), progress[:, None, None] * np.array(turn)),
+        body_centre=(("body", "space"), centre[None]),
+        wall_body=dataset["wall_body"] * 0,
+        ghost_body=dataset["ghost_body"] * 0,
+    )
+
+    def expected(points: np.ndarray) -> np.ndarray:
+        across, up = points[..., 0] - 0.2, points[..., -1] - 0.3
+        sense = 1.0 if dim == 2 else -1.0  # a positive turn about y leads from z to x
+        result = points.copy()
+        result[..., 0], result[..., -1] = 0.2 - sense * up, 0.4 + sense * across
+        return result
+
+    walls = np.concatenate([points for points, _ in walls_at(made, end)])
+    np.testing.assert_allclose(walls, expected(dataset["outline_node"].values), atol=1e-12)
+    assert np.ptp(view_of(made, [made.sph.at(end)])[1]) > 0.9, "the picture shows where the walls have turned to"
+    parts = pytest.importorskip("pyvista") and vtk_parts(made, end)
+    flat = np.s_[:, :dim]
+    np.testing.assert_allclose(parts["ghosts"].points[flat], expected(dataset["ghost_position"].values), atol=1e-12)
+    if dim == 3:
+        surface = expected(dataset["triangle_node"].values.reshape(-1, 3))
+        np.testing.assert_allclose(parts["surfaces"].points, surface, atol=1e-12)
+        half = walls_at(made, 0.5 * end)[0][0] - centre
+        length = np.linalg.norm(dataset["outline_node"].values[0] - centre)
+        assert np.linalg.norm(half - [0, 0, 0.05], axis=1)[0] == pytest.approx(length, rel=1e-3), (
+            "walls keep their shape"
+        )
 
 
 def test_csv_holds_all_samples(tank: xr.Dataset, tmp_path: Path) -> None:
