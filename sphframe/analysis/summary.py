@@ -21,7 +21,9 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
 
     - ``case``, ``wall_treatment``, ``interpolator``, ``hydrostatic_lift``, ``particle_spacing``, ``particles``,
       ``ghosts``, ``completed``;
-    - ``time``, ``steps``, ``wall_clock``, ``steps_per_second``, ``particle_updates_per_second``;
+    - ``time``, ``steps``, ``wall_clock`` and ``processor_time`` since the run started, output included;
+      ``steps_per_second`` and ``particle_updates_per_second`` of wall-clock time; ``waited``: whether the run had to
+      wait for processors or the disk, as its threads together got less than 90 % of one processor;
     - ``energy_excess``: largest total energy over its initial value, minus 1; ``mass_drift``: largest relative change
       of the mass;
     - ``particles_outside``: largest number of particles behind walls in a frame;
@@ -32,7 +34,13 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
     - ``front_arrival``: see :func:`front_arrival`; None where the case has no front;
     - ``errors``: of a case with an exact solution, see :meth:`sphframe.cases.ExactCase.errors`.
     """
-    result = _of_the_case(dataset) | {"time": 0.0, "steps": 0, "wall_clock": 0.0}
+    result = _of_the_case(dataset) | {
+        "time": 0.0,
+        "steps": 0,
+        "wall_clock": 0.0,
+        "processor_time": 0.0,
+        "waited": False,
+    }
     result |= {"front_arrival": front_arrival(dataset), "particles_removed": 0, "densities_outside": 0}
     if dataset.sizes["time"]:
         result["particles_outside"] = int(dataset["particles_outside"].max())
@@ -58,7 +66,7 @@ def _of_the_case(dataset: xr.Dataset) -> dict[str, Any]:
 def _of_the_samples(dataset: xr.Dataset) -> dict[str, Any]:
     """Key figures from the samples of a run that has at least one."""
     last = dataset.isel(probe_time=-1)
-    wall_clock, steps = float(last["wall_clock"]), int(last["step"])
+    wall_clock, processor, steps = float(last["wall_clock"]), float(last["processor_time"]), int(last["step"])
     energy, mass = dataset["total_energy"].values, dataset["mass"].values
     counts = dataset["interpolation_status"].sum("probe_time")
     rate = steps / wall_clock if wall_clock > 0.0 else 0.0
@@ -66,6 +74,8 @@ def _of_the_samples(dataset: xr.Dataset) -> dict[str, Any]:
         "time": float(last["probe_time"]),
         "steps": steps,
         "wall_clock": wall_clock,
+        "processor_time": processor,
+        "waited": processor < 0.9 * wall_clock,
         "steps_per_second": rate,
         "particle_updates_per_second": rate * int(dataset.sizes["particle"]),
         "particles_removed": int(last["particles_removed"]),

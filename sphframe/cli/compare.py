@@ -45,6 +45,8 @@ def compare_command(
         )
     screen = Console(markup=False, highlight=False, soft_wrap=True)
     screen.print(_table(comparison.dataset))
+    if comparison.dataset["waited"].any():
+        screen.print("the machine was not idle: runs had to wait; compare processor times, not wall-clock times")
     screen.print(f"error: {comparison.dataset['error'].attrs['long_name']}", markup=False)
     for path in (output / "comparison.nc", comparison.report):
         screen.print(f"wrote {path}", markup=False)
@@ -52,12 +54,12 @@ def compare_command(
 
 def _table(dataset: xr.Dataset) -> Table:
     table = Table(box=None, pad_edge=False)
-    for head in ("method", "spacing (m)", "error", "order", "wall clock (s)", "fallback (%)", "to the end"):
+    for head in ("method", "spacing (m)", "error", "order", "processor time (s)", "fallback (%)", "to the end"):
         table.add_column(head)
     for method in dataset["interpolator"].values:
         for spacing in dataset["particle_spacing"].values:
             one = dataset.sel(interpolator=method, particle_spacing=spacing)
-            numbers = (float(one[name]) for name in ("error", "order", "wall_clock", "fallback"))
+            numbers = (float(one[name]) for name in ("error", "order", "processor_time", "fallback"))
             done = "yes" if int(one["completed"]) else "no"
             table.add_row(Text(str(method)), f"{spacing:g}", *(shown(number) for number in numbers), done)
     return table

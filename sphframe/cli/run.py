@@ -134,7 +134,8 @@ def _table(case: Case, figures: Mapping[str, Any]) -> Table:
     table.add_row("ghosts", statuses)
     table.add_row(
         "speed",
-        f"{figures['wall_clock']:.1f} s, {figures['steps_per_second']:.0f} steps/s,"
-        f" {figures['particle_updates_per_second']:.3g} particle-steps/s",
+        f"{figures['wall_clock']:.1f} s, output included ({figures['processor_time']:.1f} s of processor time),"
+        f" {figures['steps_per_second']:.0f} steps/s, {figures['particle_updates_per_second']:.3g} particle-steps/s"
+        + ("; the machine was not idle: the run had to wait" if figures["waited"] else ""),
     )
     return table

@@ -65,10 +65,16 @@ class RunView(Protocol):
     """Number of time steps made."""
     time_step: float
     """Length of the last time step, s; 0 before the first."""
-    wall_clock: float
-    """Wall-clock time spent in time steps, s."""
     particle_count: int
     """Number of fluid particles at the start of the run."""
+
+    @property
+    def wall_clock(self) -> float:
+        """Wall-clock time of the run, output included, without the set-up and the time between resumes, s."""
+
+    @property
+    def processor_time(self) -> float:
+        """Processor time of all threads in the same time, s."""
 
     @property
     def fluid_count(self) -> int:

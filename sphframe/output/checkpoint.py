@@ -29,7 +29,7 @@ from sphframe.output.provenance import distributions, software
 if TYPE_CHECKING:
     from sphframe.cases import Case
 
-_FORMAT = 3
+_FORMAT = 4
 _HEADER = "checkpoint.json"
 _TYPES = {"f": "<f8", "i": "<i8"}
 

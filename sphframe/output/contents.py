@@ -61,6 +61,7 @@ def sample_of(simulation: RunView) -> dict[str, Any]:
         "step": simulation.step,
         "time_step": simulation.time_step,
         "wall_clock": simulation.wall_clock,
+        "processor_time": simulation.processor_time,
         **{f"{name}_energy": energy for name, energy in energies.items()},
         "total_energy": sum(energies.values()),
         "mass": float(np.nansum(simulation.masses())),

@@ -106,6 +106,7 @@ VARIABLES: Mapping[str, Variable] = {
     "step": Variable(("probe_time",), "1", "steps taken", "i4"),
     "time_step": Variable(("probe_time",), "s", "time step"),
     "wall_clock": Variable(("probe_time",), "s", "wall-clock time since the start of the run"),
+    "processor_time": Variable(("probe_time",), "s", "processor time of all threads since the start of the run"),
     "probe_pressure": Variable(("probe_time", "probe"), "Pa", "pressure at the probe"),
     "probe_wet": Variable(("probe_time", "probe"), "1", "1 where the probe is wet, 0 where it is dry", "i4"),
     "gauge_elevation": Variable(("probe_time", "gauge"), "m", "elevation of the free surface"),

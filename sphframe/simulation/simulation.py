@@ -1,6 +1,5 @@
 """Simulation: a running simulation of a case: its steps, its run loop, and the state from which it continues."""
 
-import time as clock
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -19,6 +18,7 @@ from sphframe.simulation.initial_state import initial_system, loop_parameters
 from sphframe.simulation.interruption import Interruption, deferred_interruption
 from sphframe.simulation.observation import Observation
 from sphframe.simulation.plugin_errors import naming_component, naming_hook
+from sphframe.simulation.run_clock import RunClock
 from sphframe.simulation.saved_state import check_saved_state
 
 
@@ -36,7 +36,7 @@ class Simulation(Observation):
     densities_outside: particles whose density lies outside the band of the case's guards.
     samples, frames: how many of each have been passed to the hooks.
     between_steps: whether the state is one that :meth:`state` may save; false while a step is under way.
-    initial_energy: total energy at the start, J; ``wall_clock``: time that all steps have taken, s.
+    initial_energy: total energy at the start, J.
 
     Raises
     ------
@@ -46,9 +46,10 @@ class Simulation(Observation):
 
     def __init__(self, case: Case, *, threads: int | None = None) -> None:
         self.threads = _use_threads(threads)
-        self.time = self.time_step = self.wall_clock = 0.0
+        self.time = self.time_step = 0.0
         self.step = self.samples = self.frames = 0
         self.between_steps = True
+        self._clock = RunClock()
         scene = placed_scene(case)
         with self._adding_time_and_step(), naming_component(case, running=False):
             components = Components.of_case(case)
@@ -60,6 +61,16 @@ class Simulation(Observation):
         with self._adding_time_and_step():
             self._check()
 
+    @property
+    def wall_clock(self) -> float:
+        """Wall-clock time of the run, output included, without the set-up and the time between resumes, s."""
+        return self._clock.wall
+
+    @property
+    def processor_time(self) -> float:
+        """Processor time of all threads in the same time, s."""
+        return self._clock.processor
+
     # one step
 
     def advance(self) -> None:
@@ -69,7 +80,6 @@ class Simulation(Observation):
         ------
         SimulationError: when the guards find something wrong in the new state, or a component fails.
         """
-        began = clock.perf_counter()
         with self._adding_time_and_step():
             self.time_step = self._next_time_step(self._motion.speed)
             ahead = (1.2 + 0.5 * self.case.shifting) * self.time_step
@@ -84,7 +94,6 @@ class Simulation(Observation):
             self.step += 1
             self._check()
             self.between_steps = True
-        self.wall_clock += clock.perf_counter() - began
 
     def _shift(self, speed: float, interval: float) -> None:
         """Shift the particles after a step of ``interval``, s, if the case asks for it; ``speed``: the largest, m/s."""
@@ -147,6 +156,8 @@ class Simulation(Observation):
             hook.sphframe_run_finished(simulation=self)
 
     def _run(self, hook: pluggy.HookRelay, interruption: Interruption) -> None:
+        if self.step == 0:
+            self._clock.set(0.0, 0.0)
         hook.sphframe_run_started(simulation=self)
         while True:
             if self._is_due(self.samples, self.case.probe_interval):
@@ -175,7 +186,7 @@ class Simulation(Observation):
         nothing.
         """
         return {
-            "clocks": np.array([self.time, self.time_step, self.wall_clock, self.initial_energy]),
+            "clocks": np.array([self.time, self.time_step, self.wall_clock, self.processor_time, self.initial_energy]),
             "counters": np.array([self.step, self.samples, self.frames, self.densities_outside], np.int64),
             **self.system.state(),
         }
@@ -190,7 +201,8 @@ class Simulation(Observation):
         check_saved_state(state, self.state(), self.particle_count, self.ghost_count, self._lower, self._upper)
         self.system.restore(state)
         self._motion = self.system.largest_motion()
-        self.time, self.time_step, self.wall_clock, self.initial_energy = map(float, state["clocks"])
+        self.time, self.time_step, wall, processor, self.initial_energy = map(float, state["clocks"])
+        self._clock.set(wall, processor)
         self.step, self.samples, self.frames, self.densities_outside = map(int, state["counters"])
         self.between_steps = True
         self.system.set_body_force(self.time)

@@ -26,10 +26,10 @@ class Comparison:
 
     Attributes
     ----------
-    dataset: over (interpolator, particle_spacing): ``error``, ``wall_clock`` (s), ``steps``, ``particles``, ``cost``
-        (us per particle and step), ``energy_excess``, ``fallback`` (% of wet ghosts) and ``completed``; ``order`` over
-        (interpolator); ``probe_pressure`` over (interpolator, particle_spacing, probe, probe_time), Pa, at times that
-        are common to all runs.
+    dataset: over (interpolator, particle_spacing): ``error``, ``processor_time`` (s), ``steps``, ``particles``,
+        ``cost`` (us per particle and step), ``energy_excess``, ``fallback`` (% of wet ghosts) and ``completed``;
+        ``order`` over (interpolator); ``probe_pressure`` over (interpolator, particle_spacing, probe, probe_time), Pa,
+        at times that are common to all runs.
     report: path of the page.
     """
 

@@ -18,8 +18,9 @@ def comparison_chapter(dataset: xr.Dataset) -> Chapter:
         [
             f"The error is the {dataset['error'].attrs['long_name']}"
             + (" over rho g H." if dataset["error"].attrs["units"] == "1" else ", in Pa.")
-            + " The wall-clock time is that of a run that shared the machine with others, so that it shows costs only"
-            " roughly; sphframe bench measures them."
+            + " Costs are processor times, which other programs on the machine change little; sphframe bench measures"
+            " them more precisely."
+            + (" The machine was not idle: some runs had to wait for processors." if dataset["waited"].any() else "")
         ],
         [Table("comparison", "Error and cost of each method at each resolution", _rows(dataset))],
         [_curves(dataset), *([_histories(dataset)] if dataset.sizes["probe"] else [])],
@@ -38,6 +39,7 @@ def _rows(dataset: xr.Dataset) -> list[dict[str, Cell]]:
                     "particles": int(one["particles"]),
                     "error": float(one["error"]),
                     "observed order": float(one["order"]),
+                    "processor time (s)": float(one["processor_time"]),
                     "wall clock (s)": float(one["wall_clock"]),
                     "us per particle and step": float(one["cost"]),
                     "energy above its start (%)": 100.0 * float(one["energy_excess"]),
@@ -59,9 +61,9 @@ def _curves(dataset: xr.Dataset) -> Picture:
         error = one["error"].where(one["error"] > 0.0)
         if error.notnull().any():
             left.plot(one["particle_spacing"], error, label=label, **style)
-        right.plot(one["particle_spacing"], one["wall_clock"], label=str(method), **style)
+        right.plot(one["particle_spacing"], one["processor_time"], label=str(method), **style)
     tidy(left, xscale="log", yscale="log" if left.lines else "linear", xlabel="particle spacing (m)", ylabel="error")
-    tidy(right, xscale="log", yscale="log", xlabel="particle spacing (m)", ylabel="wall clock (s)")
+    tidy(right, xscale="log", yscale="log", xlabel="particle spacing (m)", ylabel="processor time (s)")
     if left.lines:
         left.legend(fontsize=8, frameon=False)
     right.legend(fontsize=8, frameon=False)

@@ -17,8 +17,10 @@ _SAMPLES = 2001
 """number of times at which the dataset holds the pressures at the probes"""
 _OVER = ("interpolator", "particle_spacing")
 _NUMBERS = {
-    "cost": {"units": "us", "long_name": "wall-clock time per particle and step"},
-    "wall_clock": {"units": "s", "long_name": "wall-clock time of the run"},
+    "cost": {"units": "us", "long_name": "processor time per particle and step"},
+    "processor_time": {"units": "s", "long_name": "processor time of the run"},
+    "wall_clock": {"units": "s", "long_name": "wall-clock time of the run, output included"},
+    "waited": {"units": "1", "long_name": "1 for a run that had to wait for processors or the disk"},
     "steps": {"units": "1", "long_name": "time steps"},
     "particles": {"units": "1", "long_name": "fluid particles"},
     "energy_excess": {"units": "1", "long_name": "largest total energy over the first, -1"},
@@ -89,7 +91,7 @@ def _numbers(run: xr.Dataset) -> dict[str, Any]:
     """Return what the dataset holds of one run, NaN for what is not known."""
     known = {name: value for name, value in summary(run).items() if value is not None}
     numbers: dict[str, Any] = {name: float(known.get(name, math.nan)) for name in _NUMBERS if name != "completed"}
-    numbers["cost"] = 1e6 * numbers["wall_clock"] / (numbers["steps"] * numbers["particles"])
+    numbers["cost"] = 1e6 * numbers["processor_time"] / (numbers["steps"] * numbers["particles"])
     numbers["fallback"] = fallback_share(run)
     numbers["completed"] = np.int8(run.attrs["completed"] == "yes")
     return numbers

@@ -3,12 +3,14 @@
 import json
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
 
+import sphframe
 from sphframe.analysis import (
     convergence_order,
     front_arrival,
@@ -221,3 +223,21 @@ def test_plot_marks_probes_and_the_free_surface(tank: xr.Dataset) -> None:
     lines = [line.get_xydata() for line in panel.get_lines()]
     assert any(len(line) == tank.sizes["probe"] for line in lines)
     assert any(len(line) > 10 and np.allclose(line[:, 1], 0.3, atol=0.01) for line in lines)
+
+
+def test_the_clock_of_a_run_counts_output_and_hooks(tmp_path: Path) -> None:
+    class Slow:
+        @sphframe.hookimpl
+        def sphframe_frame_due(self) -> None:
+            time.sleep(0.15)
+
+    case = {"particle_spacing": 0.025, "until": 0.004, "frame_interval": 0.002, "courant_number": 0.3}
+    began = time.perf_counter()
+    run = sphframe.run("hydrostatic-tank", output=tmp_path / "tank.nc", threads=1, hooks=[Slow()], **case)
+    took = time.perf_counter() - began
+    figures = summary(run.dataset)
+    assert run.dataset.sizes["time"] == 3
+    assert 0.3 < figures["wall_clock"] < took, "the last frame is written after the last sample"
+    assert figures["processor_time"] < figures["wall_clock"] - 0.25, "sleep is no processor time"
+    assert figures["steps_per_second"] == figures["steps"] / figures["wall_clock"]
+    assert figures["waited"]

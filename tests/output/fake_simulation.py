@@ -55,6 +55,7 @@ class FakeSimulation:
         self.case = case or FakeCase()
         self.scene = self.case.scene()
         self.time, self.step, self.time_step, self.wall_clock = 0.0, 0, 0.01, 0.0
+        self.processor_time = 0.0
         self.sound_speed, self.smoothing_length = 44.3, 0.13
         self.fluid_count, self.ghost_count = particles, 20
         self.removed_count = self.densities_outside = 0

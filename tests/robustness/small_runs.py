@@ -20,7 +20,7 @@ from sphframe.bodies import Prescribed
 from sphframe.cases import Custom, Scene
 from sphframe.geometry import BoxRegion, BoxWall, PolygonWall
 
-TIMING = {"wall_clock"}
+TIMING = {"wall_clock", "processor_time"}
 
 
 def oscillation(time: float) -> tuple[list[float], list[float], list[float]]:
