@@ -8,7 +8,7 @@ from typing import Any
 
 import numba as typed_numba
 
-from sphframe.benchmark.machine import machine
+from sphframe.benchmark.machine import OtherWork, machine
 from sphframe.benchmark.memory import MemoryCost, measure_memory
 from sphframe.benchmark.methods import MethodCost, measure_methods
 from sphframe.benchmark.peak import Peak, measure_peak
@@ -108,7 +108,7 @@ def bench(
     InputError: as :func:`check_request` does.
     """
     check_request(particles, threads, only)
-    before = numba.get_num_threads()
+    before, other = numba.get_num_threads(), OtherWork()
     counts = sorted(set(threads)) or [n for n in (1, 2) if n <= numba.config.NUMBA_NUM_THREADS]
     wanted = set(only or SECTIONS)
     flows = [(dim, state) for name, dim, state in _FLOWS if name in wanted]
@@ -137,4 +137,5 @@ def bench(
         start_up = measure_start_up(repeats, tell) if "start-up" in wanted else None
     finally:
         numba.set_num_threads(before)
-    return BenchmarkReport(_machine(), tuple(particles), tuple(counts), peak, steps, methods, walls, memory, start_up)
+    found = {**_machine(), "processors that other programs used": other.in_words()}
+    return BenchmarkReport(found, tuple(particles), tuple(counts), peak, steps, methods, walls, memory, start_up)

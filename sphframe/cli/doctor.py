@@ -16,6 +16,7 @@ from rich.table import Table
 from rich.text import Text
 
 import sphframe
+from sphframe.compiled import default_threads
 from sphframe.registry import KINDS, check
 
 numba: Any = typed_numba  # the types of its settings and its threading layer are unknown
@@ -30,7 +31,7 @@ def doctor_command() -> None:
     table.add_row("Python", f"{platform.python_version()} in {sys.prefix}, {platform.platform()}")
     for package in _PACKAGES:
         table.add_row(package, _version(package))
-    table.add_row("threads", f"{numba.config.NUMBA_NUM_THREADS} of {os.cpu_count()} cores; set NUMBA_NUM_THREADS")
+    table.add_row("threads", f"{default_threads()} of {os.cpu_count()} cores; choose others by --threads")
     table.add_row("threading layer", _threading_layer())
     table.add_row("compiled code", _cache())
     console.print(table)
@@ -69,7 +70,8 @@ def _threading_layer() -> str:
 
     try:
         add_up(np.ones(8))
-        return str(numba.threading_layer())
+        layer = str(numba.threading_layer())
+        return layer if layer == "tbb" else f"{layer}; runs side by side are faster with tbb (pip install tbb)"
     except Exception as error:  # report whatever a broken installation raises
         return f"broken: {type(error).__name__}: {error}"
 

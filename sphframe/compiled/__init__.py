@@ -6,10 +6,12 @@ from sphframe.compiled.fma import fma
 from sphframe.compiled.lanes import LANES
 from sphframe.compiled.local_array import local_array
 from sphframe.compiled.specialise import compile_part, fingerprint, specialise
+from sphframe.compiled.threads import default_threads, prefer_fair_threads, use_threads
 
 __all__ = [
     "LANES",
     "compile_part",
+    "default_threads",
     "fast_exp",
     "fingerprint",
     "fma",
@@ -18,4 +20,7 @@ __all__ = [
     "offset_between",
     "specialise",
     "squared_distance",
+    "use_threads",
 ]
+
+prefer_fair_threads()

@@ -3,14 +3,14 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-import numba
 import numpy as np
 import pluggy
 
 from sphframe.arrays import Arrays
 from sphframe.cases import Case
 from sphframe.cases.placement import placed_scene
-from sphframe.errors import InputError, SimulationError
+from sphframe.compiled import use_threads
+from sphframe.errors import SimulationError
 from sphframe.neighbours import LargestMotion
 from sphframe.simulation.components import Components
 from sphframe.simulation.guards import check_state, check_time_step, check_traits
@@ -45,7 +45,7 @@ class Simulation(Observation):
     """
 
     def __init__(self, case: Case, *, threads: int | None = None) -> None:
-        self.threads = _use_threads(threads)
+        self.threads = use_threads(threads)
         self.time = self.time_step = 0.0
         self.step = self.samples = self.frames = 0
         self.between_steps = True
@@ -206,11 +206,3 @@ class Simulation(Observation):
         self.step, self.samples, self.frames, self.densities_outside = map(int, state["counters"])
         self.between_steps = True
         self.system.set_body_force(self.time)
-
-
-def _use_threads(threads: int | None) -> int:
-    available = int(numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
-    if threads is not None and not 1 <= threads <= available:
-        raise InputError(f"threads = {threads}, but this machine offers 1 to {available}")
-    numba.set_num_threads(threads or available)
-    return threads or available

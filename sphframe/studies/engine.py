@@ -18,6 +18,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from sphframe.compiled import default_threads
 from sphframe.errors import InputError, OutputError, SphframeError
 from sphframe.output.lock import lock_file
 from sphframe.studies.tasks import UNFINISHED, Task, lock_of, work
@@ -250,9 +251,9 @@ def _cluster(count: int, workers: int | None, scheduler: str | None) -> Iterator
             with _running_cluster(scheduler) as client:
                 yield client, None
         else:
-            processes = workers or min(_cores(), count)
+            processes = workers or min(default_threads(), count)
             with _local_cluster(processes) as client:
-                yield client, max(1, _cores() // processes)
+                yield client, max(1, default_threads() // processes)
 
 
 @contextlib.contextmanager
@@ -286,10 +287,6 @@ def _local_cluster(processes: int) -> Iterator[Any]:
     )
     with cluster, Client(cluster, set_as_default=False) as client:
         yield client
-
-
-def _cores() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 @contextlib.contextmanager
