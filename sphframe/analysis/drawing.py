@@ -1,17 +1,20 @@
 """Analysis: the parts of a picture: particles, walls, probes, free surface, scales and labels."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import shapely
 import xarray as xr
 
-from sphframe.analysis.fields import free_surface, outline_nodes
+from sphframe.analysis.fields import outline_nodes, particle_weights
+from sphframe.analysis.figures import line_style
+from sphframe.analysis.placed import probes_at, walls_at
 from sphframe.analysis.scales import case_of, pressure_scale, time_scale, wall_method
-from sphframe.arrays import Array, IntArray
+from sphframe.arrays import Array
 from sphframe.errors import InputError
-from sphframe.geometry import to_world
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,6 +26,8 @@ if TYPE_CHECKING:
 View = tuple[tuple[float, float], tuple[float, float]]
 
 _WALL_COLOUR = "#3b3b3b"
+_LEAST_HEIGHT = 1.3
+"""of the axes of a picture, inches"""
 _EDGE = 0.4  # pt around each particle: without it, antialiased small discs would be pale
 
 
@@ -63,10 +68,14 @@ def shown_particles(dataset: xr.Dataset, frame: xr.Dataset, values: Array) -> tu
     position = frame["position"].values
     if position.shape[1] == 2:
         return position, values
-    width = outline_nodes(dataset)[:, 1]
-    middle = 0.5 * float(width.min() + width.max())
-    near = np.abs(position[:, 1] - middle) < float(dataset.attrs["particle_spacing"])
+    near = np.abs(position[:, 1] - _middle(dataset)) < float(dataset.attrs["particle_spacing"])
     return position[near][:, [0, 2]], values[near]
+
+
+def _middle(dataset: xr.Dataset) -> float:
+    """The y of the vertical plane through the middle of the tank, m."""
+    width = outline_nodes(dataset)[:, 1]
+    return 0.5 * float(width.min() + width.max())
 
 
 def draw_particles(axes: "Axes", dataset: xr.Dataset, frame: xr.Dataset, values: Array) -> "EllipseCollection":
@@ -112,55 +121,56 @@ def move_walls(lines: "Sequence[Line2D]", dataset: xr.Dataset, time: float) -> N
         line.set_data(points[:, 0], points[:, -1])
 
 
-def walls_at(dataset: xr.Dataset, time: float) -> list[tuple[Array, int]]:
-    """Return the polylines (n, dim) of the walls in m at ``time`` (s), each with the index of its wall."""
-    if "outline" not in dataset.sizes:
-        return []
-    nodes = dataset["outline_node"].values
-    counts, bodies = dataset["outline_node_count"].values, dataset["wall_body"].values
-    result = []
-    for end, count, wall in zip(np.cumsum(counts), counts, dataset["outline_wall"].values, strict=True):
-        points = nodes[end - count : end]
-        if bodies[wall] >= 0:
-            points = moved(points, dataset, int(bodies[wall]), time)
-        result.append((points, int(wall)))
-    return result
-
-
-def triangles_at(dataset: xr.Dataset, time: float) -> tuple[Array, IntArray]:
-    """Return the triangles (t, 3, 3) of the walls of a run in 3-D, m, at ``time`` (s), and their walls (t,)."""
-    triangles, walls = dataset["triangle_node"].values.copy(), dataset["triangle_wall"].values
-    for wall, body in enumerate(dataset["wall_body"].values):
-        if body >= 0:
-            own = walls == wall
-            triangles[own] = moved(triangles[own].reshape(-1, 3), dataset, int(body), time).reshape(-1, 3, 3)
-    return triangles, walls
-
-
-def ghosts_at(dataset: xr.Dataset, time: float) -> Array:
-    """Return the positions of the ghosts (g, dim), m, at ``time`` (s)."""
-    position, bodies = dataset["ghost_position"].values.copy(), dataset["ghost_body"].values
-    for body in np.unique(bodies[bodies >= 0]):
-        position[bodies == body] = moved(position[bodies == body], dataset, int(body), time)
-    return position
-
-
-def draw_probes(axes: "Axes", dataset: xr.Dataset) -> "list[Line2D]":
-    """Mark the positions of the pressure probes and return the marks."""
+def draw_probes(axes: "Axes", dataset: xr.Dataset, time: float) -> "list[Line2D]":
+    """Mark where the pressure probes are at ``time`` (s), in the colours of their series, and return the marks."""
     if "probe_pressure" not in dataset:
         return []
-    across, up = dataset["probe_x"].values, dataset[f"probe_{vertical_axis(dataset)}"].values
-    return axes.plot(
-        across, up, "o", markersize=4, color="white", markeredgecolor="black", markeredgewidth=0.8, zorder=4
-    )
+    marks = [
+        axes.plot([], [], "o", markersize=5, markeredgecolor="white", markeredgewidth=0.8, zorder=4 - 0.1 * k,
+                  color=line_style(k)["color"])[0]
+        for k in range(dataset.sizes["probe"])
+    ]  # fmt: skip
+    move_probes(marks, dataset, time)
+    return marks
 
 
-def draw_free_surface(axes: "Axes", dataset: xr.Dataset, time: float) -> None:
-    """Draw the elevation of the highest fluid; in 3-D in the middle of the tank."""
-    surface = free_surface(dataset, time)
-    if "y" in surface.dims:
-        surface = surface.isel(y=surface.sizes["y"] // 2)
-    axes.plot(surface["x"].values, surface.values, color="#d62728", linewidth=1.2, drawstyle="steps-mid", zorder=5)
+def move_probes(marks: "Sequence[Line2D]", dataset: xr.Dataset, time: float) -> None:
+    """Move marks made by :func:`draw_probes` to where the probes are at ``time`` (s)."""
+    for mark, position in zip(marks, probes_at(dataset, time) if marks else (), strict=True):
+        mark.set_data([position[0]], [position[-1]])
+
+
+def draw_gauges(axes: "Axes", dataset: xr.Dataset) -> None:
+    """Mark the gauges at rest at the upper edge, in the colours of their series."""
+    if "gauge_elevation" in dataset:
+        for k in np.flatnonzero(dataset["gauge_body"].values < 0):
+            colour = line_style(int(k))["color"]
+            place = axes.get_xaxis_transform()
+            axes.plot(dataset["gauge_x"].values[k], 0.97, "v", markersize=6, color=colour, transform=place, zorder=4)
+
+
+def draw_free_surface(axes: "Axes", dataset: xr.Dataset, frame: xr.Dataset) -> None:
+    """Draw the line on which the particles fill half of the space, left out within a spacing of walls.
+
+    In 3-D it is that of the particles that are shown.
+    """
+    from contourpy import contour_generator
+
+    spacing, time = float(dataset.attrs["particle_spacing"]), float(frame["time"])
+    area = (dataset["particle_mass"] / frame["density"]).values
+    position, area = shown_particles(dataset, frame, area)
+    if int(dataset.attrs["dimension"]) == 3:
+        area = area / (2.0 * spacing)
+    lower, upper = position.min(axis=0) - 3.0 * spacing, position.max(axis=0) + 3.0 * spacing
+    x, y = (np.arange(low, high, 0.5 * spacing) for low, high in zip(lower, upper, strict=True))
+    nodes = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    rows, _, weight = particle_weights(nodes, position, area, spacing)
+    filling = np.bincount(rows, weight, len(nodes)).reshape(len(y), len(x))
+    walls = shapely.multilinestrings([shapely.linestrings(points[:, [0, -1]]) for points, _ in walls_at(dataset, time)])
+    for line in contour_generator(x, y, filling).lines(0.5):
+        line[shapely.distance(shapely.points(line), walls) < spacing] = np.nan
+        axes.plot(*line.T, color="white", linewidth=2.4, zorder=5)
+        axes.plot(*line.T, color="black", linewidth=1.0, zorder=5)
 
 
 def view_of(dataset: xr.Dataset, frames: Sequence[xr.Dataset]) -> View:
@@ -192,6 +202,26 @@ def colour_limits(dataset: xr.Dataset, frames: Sequence[xr.Dataset], name: str) 
     return (0.0 if name == "speed" else float(low)), float(high if high > low else low + 1.0)
 
 
+def beyond(limits: tuple[float, float], values: Array) -> str:
+    """Return at which ends of the colour bar ``values`` lie beyond its ``limits``: neither, min, max or both."""
+    below, above = bool(np.nanmin(values) < limits[0]), bool(np.nanmax(values) > limits[1])
+    return {(False, False): "neither", (True, False): "min", (False, True): "max"}.get((below, above), "both")
+
+
+def stretch_of(view: View, width: float) -> int:
+    """Return how many times the height is drawn larger than the length, in a panel ``width`` inches wide.
+
+    It is 1 but for flumes, which would else be strips.
+    """
+    (x0, x1), (y0, y1) = view
+    return max(1, math.ceil(_LEAST_HEIGHT / (width * (y1 - y0) / (x1 - x0))))
+
+
+def with_stretch(title: str, stretch: int) -> str:
+    """Return the title of a picture, with how much larger the height is drawn."""
+    return title if stretch == 1 else f"{title}  ·  height drawn {stretch} times as large"
+
+
 def time_label(dataset: xr.Dataset, time: float) -> str:
     """Time in s, and with gravity dimensionless as t sqrt(g/H), as text."""
     if dataset.attrs["gravity"] == 0.0:
@@ -206,6 +236,8 @@ def run_title(dataset: xr.Dataset) -> str:
         wall_method(case_of(dataset)),
         f"{dataset.sizes['particle']} particles, spacing {1e3 * dataset.attrs['particle_spacing']:g} mm",
     ]
+    if int(dataset.attrs["dimension"]) == 3:
+        parts.append(f"slice at y = {_middle(dataset):.3g} ± {dataset.attrs['particle_spacing']:.2g} m")
     if dataset.attrs["completed"] != "yes":
         parts.append(str(dataset.attrs["run_status"]))
     return "  ·  ".join(parts)
@@ -216,10 +248,9 @@ def draw_colour_bar(
 ) -> None:
     """Draw the colour bar of ``drawn`` beside ``axes``, labelled in points of ``size``.
 
-    The upper end is drawn as a triangle, as values may lie beyond it; so is the lower end unless it is zero.
+    The option ``extend`` says at which ends values lie beyond it, which are then drawn as triangles.
     """
-    extend = "max" if drawn.get_clim()[0] == 0.0 else "both"
-    bar = figure.colorbar(drawn, ax=axes, pad=0.01, fraction=0.03, extend=extend, **options)
+    bar = figure.colorbar(drawn, ax=axes, pad=0.01, fraction=0.03, **options)
     bar.set_label(f"{field.label} ({field.unit})", fontsize=size)
     bar.ax.tick_params(labelsize=size - 1)
 
@@ -227,20 +258,3 @@ def draw_colour_bar(
 def vertical_axis(dataset: xr.Dataset) -> str:
     """Name of the vertical coordinate: ``y`` in 2-D, ``z`` in 3-D."""
     return "xyz"[int(dataset.attrs["dimension"]) - 1]
-
-
-def moved(points: Array, dataset: xr.Dataset, body: int, time: float) -> Array:
-    """Return where ``points`` (n, dim) of a ``body``, given as drawn, are at ``time`` (s), m.
-
-    The position of the body is interpolated between samples, its rotation in 3-D along the shortest way.
-    """
-    times, position = dataset["probe_time"].values, dataset["body_position"].isel(body=body).values
-    if not len(times):
-        return points
-    now = np.array([np.interp(time, times, coordinate) for coordinate in position.T])
-    if points.shape[1] == 3 and len(times) > 1:
-        from scipy.spatial.transform import Rotation, Slerp
-
-        turning = Slerp(times, Rotation.from_rotvec(position[:, 3:]))
-        now[3:] = turning(np.clip(time, times[0], times[-1])).as_rotvec()
-    return to_world(points, now, dataset["body_centre"].isel(body=body).values)

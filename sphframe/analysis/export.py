@@ -12,8 +12,8 @@ from xml.etree import ElementTree
 import numpy as np
 import xarray as xr
 
-from sphframe.analysis.drawing import ghosts_at, triangles_at, walls_at
 from sphframe.analysis.fields import particles_at
+from sphframe.analysis.placed import ghosts_at, triangles_at, walls_at
 from sphframe.arrays import Array
 from sphframe.errors import InputError, OutputError
 

@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 from scipy.spatial import cKDTree
 
-from sphframe.arrays import Array
+from sphframe.arrays import Array, IntArray
 from sphframe.errors import InputError
 
 
@@ -90,17 +90,15 @@ def to_grid(
     position = frame["position"].values
     dim = position.shape[1]
     axes = [_axis(dataset, k, resolution or spacing) for k in range(dim)]
-    top = position[:, -1].max() + 1.5 * spacing
+    top = np.nanmax(position[:, -1]) + 1.5 * spacing
     axes[-1] = axes[-1][axes[-1] <= max(top, axes[-1][0])]
     nodes = np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
-    pairs = cKDTree(nodes).sparse_distance_matrix(cKDTree(position), 2.6 * spacing, output_type="coo_matrix")
-    q = pairs.data / (1.3 * spacing)
-    volume = (dataset["particle_mass"].values / frame["density"].values)[pairs.col]
-    norm = {2: 7.0 / (4.0 * np.pi), 3: 21.0 / (16.0 * np.pi)}[dim] / (1.3 * spacing) ** dim
-    weight = norm * (1.0 - 0.5 * q) ** 4 * (1.0 + 2.0 * q) * volume
-    total = np.bincount(pairs.row, weight, len(nodes))
+    rows, cols, weight = particle_weights(
+        nodes, position, (dataset["particle_mass"] / frame["density"]).values, spacing
+    )
+    total = np.bincount(rows, weight, len(nodes))
     values = frame[field].values.reshape(len(position), -1)
-    gridded = np.stack([np.bincount(pairs.row, weight * v[pairs.col], len(nodes)) for v in values.T], axis=-1)
+    gridded = np.stack([np.bincount(rows, weight * v[cols], len(nodes)) for v in values.T], axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):
         gridded = np.where(total[:, None] >= 0.5, gridded / total[:, None], np.nan)
     names = "xyz"[:dim]
@@ -115,6 +113,18 @@ def to_grid(
         attrs=frame[field].attrs,
     )
     return result.transpose(*reversed(names), *rest)
+
+
+def particle_weights(nodes: Array, position: Array, volume: Array, spacing: float) -> tuple[IntArray, IntArray, Array]:
+    """Return pairs of a node (n, dim) and a near particle (p, dim), as two arrays of indices, and w_j V_j of each.
+
+    The weight w is that of :func:`to_grid`; particles without a finite position have no pairs.
+    """
+    alive, dim = np.flatnonzero(np.isfinite(position).all(axis=1)), position.shape[1]
+    near = cKDTree(nodes).sparse_distance_matrix(cKDTree(position[alive]), 2.6 * spacing, output_type="coo_matrix")
+    q = near.data / (1.3 * spacing)
+    norm = {2: 7.0 / (4.0 * np.pi), 3: 21.0 / (16.0 * np.pi)}[dim] / (1.3 * spacing) ** dim
+    return near.row, alive[near.col], norm * (1.0 - 0.5 * q) ** 4 * (1.0 + 2.0 * q) * volume[alive[near.col]]
 
 
 def outline_nodes(dataset: xr.Dataset) -> Array:

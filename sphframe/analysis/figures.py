@@ -9,6 +9,15 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+_COLOURS = ("#0072B2", "#E69F00", "#CC79A7", "#56B4E9", "#D55E00", "#009E73")
+"""of Okabe and Ito, which people who confuse red and green can tell apart"""
+_LINES = ("-", "--", ":", "-.")
+
+
+def line_style(number: int) -> dict[str, Any]:
+    """Return colour and line style of the series with this ``number``, from 0."""
+    return {"color": _COLOURS[number % len(_COLOURS)], "linestyle": _LINES[number // len(_COLOURS) % len(_LINES)]}
+
 
 def figure_class() -> type["Figure"]:
     """Return matplotlib's figure class, which opens no window.

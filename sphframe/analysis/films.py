@@ -5,6 +5,7 @@ markers from one raster, which is six times as fast as discs with individual col
 """
 
 import itertools
+import math
 import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -23,11 +24,14 @@ from sphframe.analysis.drawing import (
     draw_probes,
     draw_walls,
     field_to_draw,
+    move_probes,
     move_walls,
     run_title,
     shown_particles,
+    stretch_of,
     vertical_axis,
     view_of,
+    with_stretch,
 )
 from sphframe.analysis.fields import particles_at
 from sphframe.analysis.figures import figure_class, new_figure, tidy
@@ -39,6 +43,8 @@ if TYPE_CHECKING:
     from matplotlib.lines import Line2D
 
 _LEVELS = 64
+_MOST_PER_SECOND = 50.0
+"""frames, of a film in real time; players of .gif show no more"""
 _DOTS_PER_INCH = 100.0
 _CODECS: dict[str, dict[str, Any]] = {
     ".mp4": {"codec": "libx264", "quality": 7},
@@ -56,17 +62,21 @@ def animate_run(
     path: str | os.PathLike[str],
     *,
     field: str = "pressure",
-    frames_per_second: float = 25.0,
+    speed: float = 1.0,
+    frames_per_second: float | None = None,
     track: Any = iter,
 ) -> int:
-    """Write a film of all frames of a run and return the number of frames.
+    """Write a film of a run, by default in real time, and return its number of frames.
+
+    A film in real time shows at most 50 frames per second; of a run with more, it shows each second one, or each third.
 
     Parameters
     ----------
     dataset: the run, finished or in progress.
     path: the film, ``.mp4`` or ``.gif``; replaced if it exists.
     field: ``pressure``, ``speed`` or ``density``.
-    frames_per_second: speed at which the film is played.
+    speed: how many times as fast as in reality the film plays, such as 0.5.
+    frames_per_second: plays all frames at this rate, whatever their times are; in place of ``speed``.
     track: wraps the list of times, such as ``rich.progress.track``.
 
     Raises
@@ -76,18 +86,15 @@ def animate_run(
     OutputError: the film cannot be written.
     """
     path = Path(path)
-    _check_film(path, frames_per_second)
+    _check_film(path, speed if frames_per_second is None else frames_per_second)
     ffmpeg = _imageio_ffmpeg()
-    pictures = film_frames(dataset, field=field, times=track([float(time) for time in dataset["time"].values]))
+    times = [float(time) for time in dataset["time"].values]
+    rate, every = (frames_per_second, 1) if frames_per_second is not None else _real_time(times, speed)
+    pictures = film_frames(dataset, field=field, times=track(times[::every]))
     first = next(pictures)
     height, width, _ = first.shape
     writer = ffmpeg.write_frames(
-        str(path),
-        (width, height),
-        fps=frames_per_second,
-        pix_fmt_in="rgba",
-        macro_block_size=2,
-        **_CODECS[path.suffix.lower()],
+        str(path), (width, height), fps=rate, pix_fmt_in="rgba", macro_block_size=2, **_CODECS[path.suffix.lower()]
     )
     count = 0
     try:
@@ -102,11 +109,22 @@ def animate_run(
     return count
 
 
-def _check_film(path: Path, frames_per_second: float) -> None:
+def _real_time(times: list[float], speed: float) -> tuple[float, int]:
+    """Return the frames per second of a film played at ``speed``, and of how many stored frames one is shown.
+
+    >>> _real_time([0.0, 0.02, 0.04], 0.5), _real_time([0.0, 0.005, 0.01], 1.0)
+    ((25.0, 1), (50.0, 4))
+    """
+    interval = (times[-1] - times[0]) / (len(times) - 1) if len(times) > 1 and times[-1] > times[0] else speed
+    every = max(math.ceil(speed / interval / _MOST_PER_SECOND - 1e-6), 1)
+    return round(speed / (interval * every), 6), every
+
+
+def _check_film(path: Path, rate: float) -> None:
     if path.suffix.lower() not in _CODECS:
         raise InputError(f"the name of a film must end in .mp4 or .gif, not {path.name!r}")
-    if not frames_per_second > 0.0:
-        raise InputError(f"the number of frames per second must be positive, such as 25, not {frames_per_second:g}")
+    if not 0.0 < rate < math.inf:
+        raise InputError(f"the speed or the number of frames per second must be positive, such as 1, not {rate:g}")
     if not path.parent.is_dir():
         raise OutputError(f"the folder {path.parent} for {path.name} does not exist: create it")
 
@@ -154,7 +172,7 @@ class _FilmPicture:
         figure: Any = self._axes.figure
         canvas: Any = FigureCanvasAgg(figure)
         self._canvas = canvas
-        self._probes = draw_probes(self._axes, dataset)
+        self._probes = draw_probes(self._axes, dataset, 0.0)
         self._title = self._axes.set_title(_time_text(dataset, 0.0), fontsize=12, loc="left")
         self._walls = draw_walls(self._axes, dataset, 0.0)
         canvas.draw()  # computes the layout of the figure
@@ -172,6 +190,7 @@ class _FilmPicture:
         self._move_particles(frame)
         self._title.set_text(_time_text(self._dataset, now))
         move_walls(self._walls, self._dataset, now)
+        move_probes(self._probes, self._dataset, now)
         self._canvas.restore_region(self._background)
         for artist in (*self._dots, *self._walls, *self._probes, self._title):
             self._axes.draw_artist(artist)
@@ -194,14 +213,16 @@ def _film_axes(dataset: xr.Dataset, style: Field, view: View, limits: tuple[floa
     from matplotlib.colors import Normalize
 
     (x0, x1), (y0, y1) = view
-    height = float(np.clip(10.6 * (y1 - y0) / (x1 - x0) + 1.6, 3.0, 9.6))
+    stretch = stretch_of(view, 10.6)
+    height = float(np.clip(stretch * 10.6 * (y1 - y0) / (x1 - x0) + 1.6, 3.0, 9.6))
     figure = new_figure(12.8, 0.02 * round(height / 0.02), dpi=_DOTS_PER_INCH)
     axes: Axes = figure.add_subplot()
-    tidy(axes, grid=False, label_size=11, xlim=(x0, x1), ylim=(y0, y1), aspect="equal")
+    tidy(axes, grid=False, label_size=11, xlim=(x0, x1), ylim=(y0, y1), aspect=stretch)
     axes.set_xlabel("x (m)", fontsize=12)
     axes.set_ylabel(f"{vertical_axis(dataset)} (m)", fontsize=12)
-    draw_colour_bar(figure, ScalarMappable(Normalize(*limits), style.colours), axes, style, size=12)
-    figure.suptitle(run_title(dataset), fontsize=13, wrap=True)
+    extend = "max" if style.label == "speed" else "both"
+    draw_colour_bar(figure, ScalarMappable(Normalize(*limits), style.colours), axes, style, size=12, extend=extend)
+    figure.suptitle(with_stretch(run_title(dataset), stretch), fontsize=13, wrap=True)
     return axes
 
 
@@ -223,6 +244,6 @@ def _time_text(dataset: xr.Dataset, time: float) -> str:
 
 
 def _marker_size(axes: "Axes", dataset: xr.Dataset) -> float:
-    """The particle spacing in points plus one pixel, which closes gaps between markers at whole pixels."""
-    ends = axes.transData.transform([(0.0, 0.0), (float(dataset.attrs["particle_spacing"]), 0.0)])
-    return (float(ends[1, 0] - ends[0, 0]) + 1.0) * 72.0 / _DOTS_PER_INCH
+    """The longer side of a square of one spacing, in points, plus one pixel, which closes gaps between markers."""
+    ends = axes.transData.transform([(0.0, 0.0), np.full(2, float(dataset.attrs["particle_spacing"]))])
+    return (float(np.max(ends[1] - ends[0])) + 1.0) * 72.0 / _DOTS_PER_INCH

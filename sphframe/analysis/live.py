@@ -109,7 +109,7 @@ class LiveRun:
 
     def _drawn(self, dataset: xr.Dataset) -> bytes:
         picture = io.BytesIO()
-        figure = plot_run(dataset, field=self._field, times=[float(dataset["time"][-1])])
+        figure = plot_run(dataset, field=self._field, times=[float(dataset["time"][-1])], width=6.4)
         figure.savefig(picture, format="png")
         return picture.getvalue()
 

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from sphframe.analysis.exact import exact_case
 from sphframe.analysis.fields import outline_nodes
 from sphframe.analysis.scales import case_of, pressure_scale, time_scale
+from sphframe.analysis.work import work_of_bodies
 from sphframe.interfaces import Status
 
 
@@ -24,8 +25,9 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
     - ``time``, ``steps``, ``wall_clock`` and ``processor_time`` since the run started, output included;
       ``steps_per_second`` and ``particle_updates_per_second`` of wall-clock time; ``waited``: whether the run had to
       wait for processors or the disk, as its threads together got less than 90 % of one processor;
-    - ``energy_excess``: largest total energy over its initial value, minus 1; ``mass_drift``: largest relative change
-      of the mass;
+    - ``work_of_bodies``: work that bodies have done on the fluid, J, in 2-D per metre of width; 0 without bodies;
+    - ``energy_excess``: largest total energy, without that work, over its initial value, minus 1; ``mass_drift``:
+      largest relative change of the mass;
     - ``particles_outside``: largest number of particles behind walls in a frame;
     - ``particles_removed``: number of particles that left the domain; ``densities_outside``: largest number in a sample
       with a density outside the band of the guards;
@@ -69,6 +71,8 @@ def _of_the_samples(dataset: xr.Dataset) -> dict[str, Any]:
     wall_clock, processor, steps = float(last["wall_clock"]), float(last["processor_time"]), int(last["step"])
     energy, mass = dataset["total_energy"].values, dataset["mass"].values
     counts = dataset["interpolation_status"].sum("probe_time")
+    done = work_of_bodies(dataset)
+    work = np.zeros(len(energy)) if done is None else done
     rate = steps / wall_clock if wall_clock > 0.0 else 0.0
     return {
         "time": float(last["probe_time"]),
@@ -80,7 +84,8 @@ def _of_the_samples(dataset: xr.Dataset) -> dict[str, Any]:
         "particle_updates_per_second": rate * int(dataset.sizes["particle"]),
         "particles_removed": int(last["particles_removed"]),
         "densities_outside": int(dataset["densities_outside"].max()),
-        "energy_excess": float(np.max(energy) / energy[0] - 1.0) if energy[0] else 0.0,
+        "work_of_bodies": float(work[-1]),
+        "energy_excess": float(np.max(energy - work) / energy[0] - 1.0) if energy[0] else 0.0,
         "mass_drift": float(np.max(np.abs(mass / mass[0] - 1.0))),
         "statuses": {
             str(name): float(count) for name, count in zip(counts["status"].values, counts / counts.sum(), strict=True)

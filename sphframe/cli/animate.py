@@ -10,7 +10,9 @@ from sphframe.analysis import animate_run
 from sphframe.output import open_dataset
 
 
-def animate_command(path: Path, *, field: str, output: Path | None, frames_per_second: float) -> None:
+def animate_command(
+    path: Path, *, field: str, output: Path | None, speed: float, frames_per_second: float | None
+) -> None:
     """Write a film of a run that is complete or still running."""
     target = output or path.with_suffix(".mp4")
     console = Console(stderr=True, markup=False)
@@ -20,10 +22,10 @@ def animate_command(path: Path, *, field: str, output: Path | None, frames_per_s
             dataset,
             target,
             field=field,
+            speed=speed,
             frames_per_second=frames_per_second,
             track=lambda times: track(times, "drawing", console=console, disable=not console.is_terminal),
         )
+    playing = f"{frames_per_second:g} per second" if frames_per_second else f"{speed:g} times as fast as in reality"
     elapsed = max(time.monotonic() - began, 1e-9)
-    print(
-        f"wrote {target}: {count} frames, {count / frames_per_second:.1f} s, drawn at {count / elapsed:.0f} per second"
-    )
+    print(f"wrote {target}: {count} frames, {playing}, drawn at {count / elapsed:.0f} per second")

@@ -218,14 +218,17 @@ def _animate(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="FILM", help=".mp4 or .gif; by default FILE.mp4")
     ] = None,
+    speed: Annotated[
+        float, typer.Option(metavar="FACTOR", help="how many times as fast as in reality the film plays")
+    ] = 1.0,
     frames_per_second: Annotated[
-        float, typer.Option("--fps", metavar="N", help="frames per second that the film plays")
-    ] = 25.0,
+        float | None, typer.Option("--fps", metavar="N", help="play all frames at this rate, in place of --speed")
+    ] = None,
 ) -> None:
-    """Write a film of a run."""
+    """Write a film of a run, in real time."""
     from sphframe.cli.animate import animate_command
 
-    animate_command(file, field=field, output=output, frames_per_second=frames_per_second)
+    animate_command(file, field=field, output=output, speed=speed, frames_per_second=frames_per_second)
 
 
 @app.command("export")

@@ -123,7 +123,9 @@ def _table(case: Case, figures: Mapping[str, Any]) -> Table:
         table.add_row(f"peak at {probe}", f"{peak['pressure']:.4g} Pa{scaled} at {peak['time']:.4g} s")
     for name, error in figures.get("errors", {}).items():
         table.add_row(f"error of {name.replace('_', ' ')}", f"{100 * error:.3g} %")
-    table.add_row("total energy", f"at most {100 * figures['energy_excess']:+.2f} % above its initial value")
+    work, unit = figures["work_of_bodies"], "J/m" if case.dimension == 2 else "J"
+    less = f", less the work of bodies, {work:.4g} {unit} until the end" if work else ""
+    table.add_row("total energy", f"at most {100 * figures['energy_excess']:+.2f} % above its initial value{less}")
     if figures["particles_outside"]:
         table.add_row("behind walls", f"up to {figures['particles_outside']} particles")
     if figures["particles_removed"]:

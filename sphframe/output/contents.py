@@ -209,6 +209,9 @@ def _fill_start(file: netCDF4.Dataset, simulation: RunView) -> None:
             file["triangle_node"][:] = np.concatenate(triangles)
             file["triangle_wall"][:] = np.repeat(np.arange(len(triangles)), [len(part) for part in triangles])
         walls = [wall.name for wall in scene.walls]
+        centres = {None: (), **{name: body.centre for name, body in scene.bodies.items()}}
+        references = [wall.reference_point or centres[wall.body] for wall in scene.walls]
+        file["wall_reference"][:] = [(*point, 0.0, 0.0, 0.0)[:dimension] for point in references]
         if scene.wall_parts:
             file["part_wall"][:] = [walls.index(part.wall) for part in scene.wall_parts]
     bodies: dict[str | None, int] = {None: -1, **{name: index for index, name in enumerate(scene.bodies)}}
@@ -216,7 +219,7 @@ def _fill_start(file: netCDF4.Dataset, simulation: RunView) -> None:
         if members:
             file[f"{name}_body"][:] = [bodies[member.body] for member in members]
     if scene.bodies:
-        file["body_centre"][:] = [(*body.centre, 0.0)[:dimension] for body in scene.bodies.values()]
+        file["body_centre"][:] = [(*centres[name], 0.0)[:dimension] for name in scene.bodies]
     if simulation.ghost_count:
         ghosts = simulation.ghosts
         file["ghost_body"][:] = ghosts.body

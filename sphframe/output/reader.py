@@ -63,6 +63,10 @@ def _prepared(dataset: "xr.Dataset", path: Path) -> "xr.Dataset":
             f"{path} is a NetCDF file, but not the output of a sphframe run: it has no case_parameters. Name another,"
             " or copy it again if it was truncated"
         )
+    if "processor_time" not in dataset:
+        raise InputError(
+            f"{path} was written by an earlier version of sphframe: repeat the run, sphframe run {path} --output NEW.nc"
+        )
     try:
         last_values = [dataset["particle_mass"][-1]]
         if dataset.sizes["time"]:

@@ -97,6 +97,7 @@ VARIABLES: Mapping[str, Variable] = {
     "triangle_node": Variable(("triangle", "corner", "space"), "m", "triangles of the walls in 3-D, at the start"),
     "triangle_wall": Variable(("triangle",), "1", "index of the wall of each triangle", "i4"),
     "wall_body": Variable(("wall",), "1", "index of the body that carries the wall; -1 for a fixed wall", "i4"),
+    "wall_reference": Variable(("wall", "space"), "m", "point to which the moment on the wall refers, as drawn"),
     "body_centre": Variable(("body", "space"), "m", "centre about which the body turns, as drawn"),
     "ghost_position": Variable(("ghost", "space"), "m", "position of the ghost particle at the start"),
     "ghost_mirror_position": Variable(("ghost", "space"), "m", "mirror point of the ghost particle at the start"),

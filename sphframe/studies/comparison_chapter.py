@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from sphframe.analysis.figures import new_figure
@@ -51,23 +52,25 @@ def _rows(dataset: xr.Dataset) -> list[dict[str, Cell]]:
 
 
 def _curves(dataset: xr.Dataset) -> Picture:
-    figure = new_figure(10.0, 4.0)
-    left, right = figure.subplots(1, 2)
-    for method in dataset["interpolator"].values:
-        one = dataset.sel(interpolator=method)
-        style: dict[str, Any] = {"color": colour(str(method)), "marker": "o", "markersize": 4, "linewidth": 1.0}
-        order = float(one["order"])
-        label = str(method) if math.isnan(order) else f"{method}, order {order:.2f}"
-        error = one["error"].where(one["error"] > 0.0)
-        if error.notnull().any():
-            left.plot(one["particle_spacing"], error, label=label, **style)
-        right.plot(one["particle_spacing"], one["processor_time"], label=str(method), **style)
-    tidy(left, xscale="log", yscale="log" if left.lines else "linear", xlabel="particle spacing (m)", ylabel="error")
-    tidy(right, xscale="log", yscale="log", xlabel="particle spacing (m)", ylabel="processor time (s)")
-    if left.lines:
-        left.legend(fontsize=8, frameon=False)
-    right.legend(fontsize=8, frameon=False)
-    return picture("comparison", "Error and cost against resolution.", figure)
+    """Draw error and cost over the particle spacing; of a single spacing, as a bar for each method."""
+    shown = [("error", "error"), ("processor_time", "processor time (s)")]
+    shown = [(name, label) for name, label in shown if bool((dataset[name] > 0.0).any())]
+    figure, methods = new_figure(5.0 * len(shown), 4.0), [str(method) for method in dataset["interpolator"].values]
+    for axes, (name, label) in zip(np.atleast_1d(figure.subplots(1, len(shown))), shown, strict=True):
+        if dataset.sizes["particle_spacing"] == 1:
+            axes.barh(methods, dataset[name].values[:, 0], color=[colour(method) for method in methods])
+            axes.invert_yaxis()
+            tidy(axes, xlabel=label)
+            continue
+        for method in methods:
+            one = dataset.sel(interpolator=method)
+            order = float(one["order"])
+            text = method if name != "error" or math.isnan(order) else f"{method}, order {order:.2f}"
+            style: dict[str, Any] = {"color": colour(method), "marker": "o", "markersize": 4, "linewidth": 1.0}
+            axes.plot(one["particle_spacing"], one[name].where(one[name] > 0.0), label=text, **style)
+        tidy(axes, xscale="log", yscale="log", xlabel="particle spacing (m)", ylabel=label)
+        axes.legend(fontsize=8, frameon=False)
+    return picture("comparison", "Error and cost of each method at each resolution.", figure)
 
 
 def _histories(dataset: xr.Dataset) -> Picture:

@@ -12,15 +12,16 @@ from sphframe.arrays import Array
 from sphframe.studies.chapter import Picture
 
 _COLOURS = {
-    "improved-shepard": "#d62728",
-    "shepard": "#ff9896",
-    "normalized": "#1f77b4",
-    "sfdi": "#2ca02c",
-    "mls-linear": "#9467bd",
-    "mls-quadratic": "#8c564b",
-    "mdbc": "#17becf",
-    "adami": "#e0a800",
+    "improved-shepard": "#D55E00",
+    "shepard": "#F2B48C",
+    "normalized": "#0072B2",
+    "sfdi": "#009E73",
+    "mls-linear": "#CC79A7",
+    "mls-quadratic": "#7A4B8C",
+    "mdbc": "#56B4E9",
+    "adami": "#E69F00",
 }
+"""of Okabe and Ito, which people who confuse red and green can tell apart, and shades of them"""
 
 
 def colour(method: str) -> str:

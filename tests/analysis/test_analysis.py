@@ -22,7 +22,8 @@ from sphframe.analysis import (
     series_error,
     summary,
 )
-from sphframe.analysis.drawing import run_title
+from sphframe.analysis.drawing import beyond, run_title
+from sphframe.analysis.work import work_of_bodies
 from sphframe.errors import InputError, OutputError
 
 
@@ -218,11 +219,84 @@ def test_plot_of_probes_with_constant_pressure(tank: xr.Dataset) -> None:
         assert high > low
 
 
-def test_plot_marks_probes_and_the_free_surface(tank: xr.Dataset) -> None:
-    panel = plot_run(tank, times=[0.0], surface=True).axes[0]
-    lines = [line.get_xydata() for line in panel.get_lines()]
-    assert any(len(line) == tank.sizes["probe"] for line in lines)
-    assert any(len(line) > 10 and np.allclose(line[:, 1], 0.3, atol=0.01) for line in lines)
+@pytest.mark.parametrize("name", ["tank", "tank_3d"])
+def test_plot_marks_probes_and_the_free_surface(name: str, request: pytest.FixtureRequest) -> None:
+    dataset = request.getfixturevalue(name)
+    panel = plot_run(dataset, times=[0.0], surface=True).axes[0]
+    lines = [np.asarray(line.get_xydata(), dtype=np.float64) for line in panel.get_lines()]
+    marks = np.concatenate([line for line in lines if len(line) == 1])
+    np.testing.assert_allclose(marks[:, 1], dataset["probe_y" if name == "tank" else "probe_z"])
+    surface = [line[np.isfinite(line[:, 1])] for line in lines if len(line) > 10]
+    assert surface
+    np.testing.assert_allclose(np.concatenate(surface)[:, 1], 0.3, atol=0.01)
+
+
+def test_a_drop_is_not_joined_to_the_water_by_the_free_surface(tank: xr.Dataset) -> None:
+    position = tank["position"].values.copy()
+    position[:, 0] = [0.5, 0.5]
+    made = tank.assign(position=(tank["position"].dims, position))
+    panel = plot_run(made, times=[0.0], surface=True).axes[0]
+    heights = np.concatenate([line.get_ydata() for line in panel.get_lines() if len(line.get_ydata()) > 5])
+    assert not np.any((heights > 0.33) & (heights < 0.45))
+
+
+def test_pictures_hide_nothing(tank: xr.Dataset) -> None:
+    """A peak of one sample is inside the axes, and values beyond the colour bar are marked at its ends."""
+    pressure = tank["probe_pressure"].values.copy()
+    pressure[3, 1] = 29.9e3
+    made = tank.assign(probe_pressure=(tank["probe_pressure"].dims, pressure), pressure=tank["pressure"] - 1e3)
+    figure = plot_run(made)
+    probes = next(axes for axes in figure.axes if "probe" in axes.get_ylabel())
+    assert probes.get_ylim()[1] > 29.9
+    assert beyond((0.0, 3.0), made["pressure"].values / 1e3) == "min"
+    assert beyond((0.0, 3.0), np.array([1.0, np.nan])) == "neither"
+    assert beyond((0.0, 3.0), np.array([-1.0, 5.0])) == "both"
+    colours = {line.get_color() for line in probes.get_lines()}
+    marks = {line.get_color() for line in figure.axes[0].get_lines() if len(line.get_xdata()) == 1}
+    assert colours == marks
+
+
+def test_long_flumes_are_drawn_taller_and_slices_are_named(tank: xr.Dataset, tank_3d: xr.Dataset) -> None:
+    flume = tank.assign(outline_node=tank["outline_node"] * np.array([30.0, 1.0]))
+    figure = plot_run(flume)
+    assert figure.axes[0].get_aspect() > 2
+    assert "times as large" in figure.get_suptitle()
+    assert "times as large" not in plot_run(tank).get_suptitle()
+    assert "slice at y = 0.15 ± 0.025 m" in run_title(tank_3d)
+
+
+@pytest.mark.parametrize("reference", [[0.0, 0.0], [1.0, 0.0]])
+def test_work_of_bodies(tank: xr.Dataset, reference: list[float]) -> None:
+    """F = (-3, 0) N on a wall that moves at 2 m/s along x, and M = -5 N m about a point r from the centre, at 4 rad/s.
+
+    A moment about the point is less by r x F than that about the centre, in which the power is F.v + M.omega.
+    """
+    n, t = tank.sizes["probe_time"], tank["probe_time"].values
+    angle = 4.0 * t
+    force = np.tile([[-3.0, 0.0]], (n, 1, 1))
+    arm = np.stack([reference[0] * np.cos(angle), reference[0] * np.sin(angle)], axis=1)
+    moment = -5.0 - (arm[:, 0] * 0.0 - arm[:, 1] * -3.0)
+    zero = np.zeros(n)
+    made = tank.assign(
+        wall_body=("wall", [0]),
+        wall_force=(("probe_time", "wall", "space"), force, {"units": "N m-1"}),
+        wall_moment=(("probe_time", "wall"), moment[:, None]),
+        wall_reference=(("wall", "space"), [reference]),
+        body_centre=(("body", "space"), [[0.0, 0.0]]),
+        body_position=(("probe_time", "body", "motion"), np.stack([2.0 * t, zero, angle], axis=1)[:, None]),
+        body_velocity=(("probe_time", "body", "motion"), np.tile([[2.0, 0.0, 4.0]], (n, 1, 1))),
+    )
+    work = work_of_bodies(made)
+    assert work is not None
+    np.testing.assert_allclose(work, (3.0 * 2.0 + 5.0 * 4.0) * t, rtol=1e-12, atol=1e-12)
+    assert summary(made)["work_of_bodies"] == pytest.approx(26.0 * 0.02)
+    assert summary(tank)["work_of_bodies"] == 0.0
+    figure = plot_run(made.assign_coords(body=["float"], motion=["x", "y", "angle"]))
+    labels = [axes.get_ylabel() for axes in figure.axes]
+    for text in ("displacement of bodies (m)", "angle of bodies (°)", "force of the fluid (N/m)", "energy (J/m)"):
+        assert text in labels, labels
+    shown = [text.get_text() for text in figure.findobj() if hasattr(text, "get_text")]
+    assert {"work of bodies", "float angle", "float x"} <= set(shown)
 
 
 def test_the_clock_of_a_run_counts_output_and_hooks(tmp_path: Path) -> None:

@@ -11,8 +11,9 @@ from typer.testing import CliRunner
 
 import sphframe
 from sphframe.analysis import animate_run, export_run, plot_run, references_for, vtk_parts
-from sphframe.analysis.drawing import view_of, walls_at
+from sphframe.analysis.drawing import view_of
 from sphframe.analysis.films import film_frames
+from sphframe.analysis.placed import walls_at
 from sphframe.cli.app import app
 from sphframe.errors import InputError
 
@@ -32,7 +33,7 @@ def test_film_is_read_back(tank: xr.Dataset, tmp_path: Path, ending: str) -> Non
     imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg")
     film = tmp_path / f"tank.{ending}"
     going = tank.assign_attrs(completed="no", run_status="running")
-    count = animate_run(going, film, field="speed")
+    count = animate_run(going, film, field="speed", frames_per_second=10.0)
     assert count == tank.sizes["time"]
     assert imageio_ffmpeg.count_frames_and_secs(str(film))[0] == count
 

@@ -1,0 +1,157 @@
+"""Analysis: the series of a run over time: probes, gauges, bodies, forces, and the energies with the work of bodies."""
+
+import itertools
+from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from sphframe.analysis.figures import line_style, tidy
+from sphframe.analysis.scales import pressure_scale, time_scale
+from sphframe.analysis.work import work_of_bodies
+from sphframe.arrays import Array
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Reference = xr.DataArray | Sequence[xr.DataArray] | None
+_MOST_LINES = 8
+"""drawn in a panel; further walls are left out, which its title says"""
+
+
+def history_panels(dataset: xr.Dataset, reference: Reference = None) -> "list[Callable[[Axes], None]]":
+    """Return the functions that draw one panel each, of what the run has: probes, gauges, bodies, forces, energies.
+
+    Parameters
+    ----------
+    reference: one or several series of p/(rho0 g H) over t sqrt(g/H), drawn together with the probes.
+    """
+    panels: list[Callable[[Axes], None]] = []
+    if "probe_pressure" in dataset:
+        panels.append(lambda axes: _draw_probes(axes, dataset, reference))
+    if "gauge_elevation" in dataset:
+        panels.append(lambda axes: _draw_gauges(axes, dataset))
+    if "body_position" in dataset:
+        panels.append(lambda axes: _draw_bodies(axes, dataset))
+    if "wall_force" in dataset:
+        panels.append(lambda axes: _draw_forces(axes, dataset))
+    return [*panels, lambda axes: _draw_energies(axes, dataset)]
+
+
+def _draw_probes(axes: "Axes", dataset: xr.Dataset, reference: Reference) -> None:
+    series = dataset["probe_pressure"].load()
+    given = [] if reference is None else [reference] if isinstance(reference, xr.DataArray) else reference
+    for mark, one in zip(itertools.cycle("ox+^"), given, strict=False):
+        t, p = one[one.dims[0]].values * time_scale(dataset), one.values * pressure_scale(dataset) * 1e-3
+        style = {"markersize": 3.0, "color": "black", "zorder": 4}
+        axes.plot(t, p, mark, markerfacecolor="none", markeredgewidth=0.7, label=str(one.name or "reference"), **style)
+    lines = zip(map(str, series["probe"].values), series.values.T * 1e-3, strict=True)
+    _draw_lines(axes, dataset, lines, "probe pressure (kPa)", from_zero=True)
+
+
+def _draw_gauges(axes: "Axes", dataset: xr.Dataset) -> None:
+    series = dataset["gauge_elevation"].load()
+    lines = zip(map(str, series["gauge"].values), series.values.T, strict=True)
+    _draw_lines(axes, dataset, lines, "surface elevation (m)")
+
+
+def _draw_bodies(axes: "Axes", dataset: xr.Dataset) -> None:
+    """Displacements in m, and in degrees on the right the angles, of the coordinates that change; else of all."""
+    position, dim = dataset["body_position"].load(), int(dataset.attrs["dimension"])
+    known = [
+        (f"{body} {motion}", position.values[:, b, m] * (1.0 if m < dim else np.degrees(1.0)), m < dim)
+        for b, body in enumerate(position["body"].values)
+        for m, motion in enumerate(position["motion"].values)
+    ]
+    moving = [one for one in known if np.ptp(one[1]) > 1e-6] or known[:dim]
+    lengths = [(name, values) for name, values, is_length in moving if is_length]
+    angles = [(name, values) for name, values, is_length in moving if not is_length]
+    label = "displacement of bodies (m)"
+    if lengths:
+        _draw_lines(axes, dataset, lengths, label)
+    if angles:
+        other: Any = axes.twinx() if lengths else axes
+        _draw_lines(other, dataset, angles, "angle of bodies (°)", start=len(lengths))
+        if lengths:
+            other.grid(visible=False)
+            other.spines["right"].set_visible(True)
+            other.get_legend().set_loc("lower right")
+            axes.get_legend().set_loc("upper right")
+
+
+def _draw_forces(axes: "Axes", dataset: xr.Dataset) -> None:
+    """Forces of the fluid, by reaction, on moving walls and named parts; where there are none, on all walls."""
+    names = {"wall": dataset["wall"].values.astype(str), "part": []}
+    chosen = [("wall", k) for k in np.flatnonzero(dataset["wall_body"].values >= 0)]
+    if "part_force" in dataset:
+        names["part"] = dataset["part"].values.astype(str)
+        chosen += [("part", k) for k in range(dataset.sizes["part"])]
+    chosen = chosen or [("wall", k) for k in range(dataset.sizes["wall"])]
+    space = dataset["space"].values.astype(str)
+    lines = [
+        (f"{names[where][k]} {axis}", dataset[f"{where}_force"].values[:, k, m])
+        for where, k in chosen
+        for m, axis in enumerate(space)
+        if m in (0, len(space) - 1)
+    ]
+    unit = dataset["wall_force"].attrs["units"].replace(" m-1", "/m")
+    factor, prefix = _prefix(max((float(np.abs(v).max(initial=0.0)) for _, v in lines), default=0.0))
+    shown = [(name, values * factor) for name, values in lines[:_MOST_LINES]]
+    _draw_lines(axes, dataset, shown, f"force of the fluid ({prefix}{unit})")
+    if len(lines) > _MOST_LINES:
+        axes.set_title(f"{_MOST_LINES} of {len(lines)} forces", fontsize=9, loc="left")
+
+
+def _draw_energies(axes: "Axes", dataset: xr.Dataset) -> None:
+    """Kinetic energy, changes of the others, and the work that bodies have done, which the total should follow."""
+    energies = {name: dataset[f"{name}_energy"].values for name in ("kinetic", "potential", "internal", "total")}
+    changes = {name: values - (values[0] if name != "kinetic" else 0.0) for name, values in energies.items()}
+    styles: dict[str, dict[str, Any]] = {"total": {"color": "black", "linestyle": "--"}}
+    work = work_of_bodies(dataset)
+    if work is not None:
+        changes["work of bodies"], styles["work of bodies"] = (
+            work,
+            {"color": "0.45", "linestyle": ":", "linewidth": 2.0},
+        )
+    factor, prefix = _prefix(max(float(np.nanmax(np.abs(values))) for values in changes.values()))
+    labels = {"potential": "change of potential", "internal": "change of internal", "total": "change of total"}
+    unit = dataset["total_energy"].attrs["units"].replace(" m-1", "/m")
+    lines = [(labels.get(name, name), values * factor) for name, values in changes.items()]
+    by_label = {labels.get(name, name): style for name, style in styles.items()}
+    _draw_lines(axes, dataset, lines, f"energy ({prefix}{unit})", styles=by_label)
+
+
+def _draw_lines(
+    axes: "Axes",
+    dataset: xr.Dataset,
+    lines: "Iterable[tuple[str, Array]]",
+    label: str,
+    *,
+    from_zero: bool = False,
+    start: int = 0,
+    styles: dict[str, dict[str, Any]] | None = None,
+) -> None:
+    """Draw series over the samples' times in full; the limits show every value, and zero if ``from_zero``."""
+    t = dataset["probe_time"].values
+    for k, (name, values) in enumerate(lines):
+        style = {"linewidth": 1.1 if k == 0 else 0.9, "zorder": 3 - 0.1 * k, **line_style(start + k)}
+        axes.plot(t, values, label=name, **(style | (styles or {}).get(name, {})))
+    drawn = np.concatenate([np.asarray(line.get_ydata(), dtype=np.float64) for line in axes.get_lines()])
+    drawn = drawn[np.isfinite(drawn)] if np.isfinite(drawn).any() else np.zeros(1)
+    low, high = float(drawn.min()), float(drawn.max())
+    low, high = (min(low, 0.0), max(high, 0.0)) if from_zero else (low, high)
+    span = high - low
+    if not span > 1e-9 * max(abs(high), abs(low)):  # a constant series
+        span = 0.1 * abs(high) or 1.0
+        high, low = high + 0.5 * span, low - (0.0 if low == 0.0 else 0.5 * span)
+    axes.set(xlim=(0.0, float(t[-1]) if t[-1] > 0.0 else 1.0), ylim=(low - 0.05 * span, high + 0.08 * span))
+    axes.set_xlabel("t (s)", fontsize=10)
+    axes.set_ylabel(label, fontsize=10)
+    axes.legend(fontsize=8, frameon=True, framealpha=0.75, edgecolor="none", ncols=2, loc="best")
+    tidy(axes)
+
+
+def _prefix(largest: float) -> tuple[float, str]:
+    """Return a factor for values up to ``largest``, and the prefix of their unit."""
+    return (1e-3, "k") if largest >= 1e3 else (1e3, "m") if 0.0 < largest < 1.0 else (1.0, "")
