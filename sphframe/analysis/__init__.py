@@ -1,5 +1,6 @@
 """Analysis: numbers and pictures from the dataset of a run. Importing it adds the accessor ``sph`` to datasets."""
 
+import sphframe.output.xarray_backend  # noqa: F401  (registers the accessor, as xarray does when it opens a file)
 from sphframe.analysis.accessor import SphAccessor
 from sphframe.analysis.convergence import convergence_order, convergence_orders
 from sphframe.analysis.export import export_csv, export_run, vtk_parts

@@ -1,5 +1,6 @@
 """Analysis: the functions of this room as methods of a dataset, ``dataset.sph``."""
 
+from functools import cached_property
 from typing import Any
 
 import xarray as xr
@@ -9,11 +10,11 @@ from sphframe.analysis import fields, plots, probes, scales
 from sphframe.analysis.exact import with_exact_solution
 from sphframe.analysis.series import series_error
 from sphframe.analysis.summary import summary
+from sphframe.output.reader import prepared
 
 
-@xr.register_dataset_accessor("sph")  # type: ignore[no-untyped-call]
 class SphAccessor:
-    """Analysis of a run's dataset; available as ``dataset.sph`` once sphframe.analysis has been imported.
+    """Analysis of a run's dataset: ``dataset.sph``, however xarray has opened it.
 
     Examples
     --------
@@ -21,7 +22,11 @@ class SphAccessor:
     """
 
     def __init__(self, dataset: xr.Dataset) -> None:
-        self._dataset = dataset
+        self._given = dataset
+
+    @cached_property
+    def _dataset(self) -> xr.Dataset:
+        return prepared(self._given)
 
     @property
     def pressure_scale(self) -> float:
@@ -48,8 +53,12 @@ class SphAccessor:
         return with_exact_solution(self._dataset).measured(self._dataset)
 
     def at(self, time: float | None = None) -> xr.Dataset:
-        """See :func:`sphframe.analysis.particles_at`."""
-        return fields.particles_at(self._dataset, time)
+        """Return the frame nearest to ``time`` (s; by default the last), with one value a particle in each variable.
+
+        The components of vectors are ``x``, ``y``, ``velocity_x`` and so on, and ``speed`` is added: so
+        ``dataset.sph.at(0.5).to_dataframe()`` has one row a particle. See :func:`sphframe.analysis.particles_at`.
+        """
+        return fields.by_components(fields.particles_at(self._dataset, time))
 
     def free_surface(self, time: float | None = None, *, resolution: float | None = None) -> xr.DataArray:
         """See :func:`sphframe.analysis.free_surface`."""

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 View = tuple[tuple[float, float], tuple[float, float]]
 
 _WALL_COLOUR = "#3b3b3b"
-_LEAST_HEIGHT = 1.3
+_LEAST_HEIGHT = 1.1
 """of the axes of a picture, inches"""
 _EDGE = 0.4  # pt around each particle: without it, antialiased small discs would be pale
 
@@ -167,7 +167,7 @@ def draw_free_surface(axes: "Axes", dataset: xr.Dataset, frame: xr.Dataset) -> N
     rows, _, weight = particle_weights(nodes, position, area, spacing)
     filling = np.bincount(rows, weight, len(nodes)).reshape(len(y), len(x))
     walls = shapely.multilinestrings([shapely.linestrings(points[:, [0, -1]]) for points, _ in walls_at(dataset, time)])
-    for line in contour_generator(x, y, filling).lines(0.5):
+    for line in map(np.asarray, contour_generator(x, y, filling).lines(0.5)):
         line[shapely.distance(shapely.points(line), walls) < spacing] = np.nan
         axes.plot(*line.T, color="white", linewidth=2.4, zorder=5)
         axes.plot(*line.T, color="black", linewidth=1.0, zorder=5)

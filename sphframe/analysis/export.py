@@ -5,6 +5,7 @@ VTK writes the files; PyVista makes its data sets from arrays. Positions have th
 
 import os
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
@@ -20,7 +21,7 @@ from sphframe.errors import InputError, OutputError
 if TYPE_CHECKING:
     import pyvista
 
-FORMATS = ("vtkhdf", "pvd", "csv")
+FORMATS = ("vtkhdf", "pvd", "csv", "zarr")
 
 
 def export_run(dataset: xr.Dataset, folder: str | os.PathLike[str], to: str, *, track: Any = iter) -> list[Path]:
@@ -31,7 +32,8 @@ def export_run(dataset: xr.Dataset, folder: str | os.PathLike[str], to: str, *, 
     dataset: the run, finished or still going.
     folder: created if it is missing; files of an earlier export are replaced.
     to: ``vtkhdf`` for one file per part and frame (VTK's HDF format), ``pvd`` for one series per part that ParaView
-        opens with its times, ``csv`` for probes, gauges, energies and diagnostics. The parts are ``fluid``, ``ghosts``,
+        opens with its times, ``csv`` for probes, gauges, energies and diagnostics, ``zarr`` for everything as a store
+        that :func:`sphframe.open_dataset` and xarray open. The parts are ``fluid``, ``ghosts``,
         ``walls`` as lines and, in 3-D, ``surfaces``: the walls as triangles.
     track: wraps the list of times, such as ``rich.progress.track``.
 
@@ -45,11 +47,21 @@ def export_run(dataset: xr.Dataset, folder: str | os.PathLike[str], to: str, *, 
     folder = Path(folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        if to == "zarr":
+            return [_export_zarr(dataset, folder / "run.zarr")]
         if to == "csv":
             return [export_csv(dataset, folder / "series.csv")]
         return _export_vtk(dataset, folder, to, track)
     except OSError as error:
         raise OutputError(f"cannot write to {folder}: {error.strerror or error}; choose another --output") from None
+
+
+def _export_zarr(dataset: xr.Dataset, path: Path) -> Path:
+    """Write all of a run as a Zarr store, which xarray opens in pieces."""
+    if find_spec("zarr") is None:
+        raise InputError("exports to Zarr need zarr: install it with pip install 'sphframe[zarr]'")
+    dataset.drop_encoding().to_zarr(path, mode="w", zarr_format=2, consolidated=True)
+    return path
 
 
 def export_csv(dataset: xr.Dataset, path: str | os.PathLike[str]) -> Path:

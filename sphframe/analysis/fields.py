@@ -28,6 +28,20 @@ def particles_at(dataset: xr.Dataset, time: float | None = None) -> xr.Dataset:
     return frame
 
 
+def by_components(frame: xr.Dataset) -> xr.Dataset:
+    """Return a frame with the components of vectors as variables of their own: ``x`` of position, ``velocity_x``."""
+    parts = {}
+    for name, variable in frame.data_vars.items():
+        if "space" not in variable.dims:
+            parts[str(name)] = variable
+            continue
+        for axis in frame["space"].values.astype(str):
+            part = variable.sel(space=axis).drop_vars("space")
+            part.attrs = {**variable.attrs, "long_name": f"{variable.attrs['long_name']}, {axis}"}
+            parts[axis if name == "position" else f"{name}_{axis}"] = part
+    return xr.Dataset(parts, attrs=frame.attrs)
+
+
 def free_surface(dataset: xr.Dataset, time: float | None = None, *, resolution: float | None = None) -> xr.DataArray:
     """Elevation of the highest fluid in vertical columns, in m, at the frame nearest to ``time``.
 

@@ -245,5 +245,5 @@ def _time_text(dataset: xr.Dataset, time: float) -> str:
 
 def _marker_size(axes: "Axes", dataset: xr.Dataset) -> float:
     """The longer side of a square of one spacing, in points, plus one pixel, which closes gaps between markers."""
-    ends = axes.transData.transform([(0.0, 0.0), np.full(2, float(dataset.attrs["particle_spacing"]))])
+    ends = axes.transData.transform(np.outer([0.0, float(dataset.attrs["particle_spacing"])], [1.0, 1.0]))
     return (float(np.max(ends[1] - ends[0])) + 1.0) * 72.0 / _DOTS_PER_INCH

@@ -44,7 +44,7 @@ def _draw_probes(axes: "Axes", dataset: xr.Dataset, reference: Reference) -> Non
     given = [] if reference is None else [reference] if isinstance(reference, xr.DataArray) else reference
     for mark, one in zip(itertools.cycle("ox+^"), given, strict=False):
         t, p = one[one.dims[0]].values * time_scale(dataset), one.values * pressure_scale(dataset) * 1e-3
-        style = {"markersize": 3.0, "color": "black", "zorder": 4}
+        style: dict[str, Any] = {"markersize": 3.0, "color": "black", "zorder": 4}
         axes.plot(t, p, mark, markerfacecolor="none", markeredgewidth=0.7, label=str(one.name or "reference"), **style)
     lines = zip(map(str, series["probe"].values), series.values.T * 1e-3, strict=True)
     _draw_lines(axes, dataset, lines, "probe pressure (kPa)", from_zero=True)
@@ -58,15 +58,22 @@ def _draw_gauges(axes: "Axes", dataset: xr.Dataset) -> None:
 
 def _draw_bodies(axes: "Axes", dataset: xr.Dataset) -> None:
     """Displacements in m, and in degrees on the right the angles, of the coordinates that change; else of all."""
-    position, dim = dataset["body_position"].load(), int(dataset.attrs["dimension"])
+    space, turns = dataset["space"].values.astype(str), dataset["body_angle"]
+    coordinates: list[tuple[str, str, Any, float]] = [("body_position", axis, k, 1.0) for k, axis in enumerate(space)]
+    if turns.ndim == 2:
+        coordinates.append(("body_angle", "angle", None, float(np.degrees(1.0))))
+    else:
+        coordinates += [
+            ("body_angle", f"angle about {axis}", k, float(np.degrees(1.0))) for k, axis in enumerate(space)
+        ]
     known = [
-        (f"{body} {motion}", position.values[:, b, m] * (1.0 if m < dim else np.degrees(1.0)), m < dim)
-        for b, body in enumerate(position["body"].values)
-        for m, motion in enumerate(position["motion"].values)
+        (f"{body} {axis}", (dataset[name].values[:, b] if k is None else dataset[name].values[:, b, k]) * factor, name)
+        for b, body in enumerate(dataset["body"].values.astype(str))
+        for name, axis, k, factor in coordinates
     ]
-    moving = [one for one in known if np.ptp(one[1]) > 1e-6] or known[:dim]
-    lengths = [(name, values) for name, values, is_length in moving if is_length]
-    angles = [(name, values) for name, values, is_length in moving if not is_length]
+    moving = [one for one in known if np.ptp(one[1]) > 1e-6] or known[: len(space)]
+    lengths = [(name, values) for name, values, variable in moving if variable == "body_position"]
+    angles = [(name, values) for name, values, variable in moving if variable == "body_angle"]
     label = "displacement of bodies (m)"
     if lengths:
         _draw_lines(axes, dataset, lengths, label)
@@ -76,14 +83,14 @@ def _draw_bodies(axes: "Axes", dataset: xr.Dataset) -> None:
         if lengths:
             other.grid(visible=False)
             other.spines["right"].set_visible(True)
-            other.get_legend().set_loc("lower right")
-            axes.get_legend().set_loc("upper right")
+            other.legend(fontsize=8, frameon=False, loc="lower right")
+            axes.legend(fontsize=8, frameon=False, loc="upper right")
 
 
 def _draw_forces(axes: "Axes", dataset: xr.Dataset) -> None:
     """Forces of the fluid, by reaction, on moving walls and named parts; where there are none, on all walls."""
-    names = {"wall": dataset["wall"].values.astype(str), "part": []}
-    chosen = [("wall", k) for k in np.flatnonzero(dataset["wall_body"].values >= 0)]
+    names: dict[str, Any] = {"wall": dataset["wall"].values.astype(str)}
+    chosen = [("wall", int(k)) for k in np.flatnonzero(dataset["wall_body"].values >= 0)]
     if "part_force" in dataset:
         names["part"] = dataset["part"].values.astype(str)
         chosen += [("part", k) for k in range(dataset.sizes["part"])]

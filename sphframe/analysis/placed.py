@@ -55,13 +55,15 @@ def moved(points: Array, dataset: xr.Dataset, body: int, time: float) -> Array:
 
     The position of the body is interpolated between samples, its rotation in 3-D along the shortest way.
     """
-    times, position = dataset["probe_time"].values, dataset["body_position"].isel(body=body).values
+    times, dim = dataset["probe_time"].values, points.shape[1]
     if not len(times):
         return points
-    now = np.array([np.interp(time, times, coordinate) for coordinate in position.T])
-    if points.shape[1] == 3 and len(times) > 1:
+    position = dataset["body_position"].isel(body=body).values
+    angle = dataset["body_angle"].isel(body=body).values.reshape(len(times), -1)
+    now = np.array([np.interp(time, times, coordinate) for coordinate in (*position.T, *angle.T)])
+    if dim == 3 and len(times) > 1:
         from scipy.spatial.transform import Rotation, Slerp
 
-        turning = Slerp(times, Rotation.from_rotvec(position[:, 3:]))
+        turning = Slerp(times, Rotation.from_rotvec(angle))
         now[3:] = turning(np.clip(time, times[0], times[-1])).as_rotvec()
     return to_world(points, now, dataset["body_centre"].isel(body=body).values)

@@ -80,7 +80,7 @@ def plot_run(
     figure_class()
     frames = [particles_at(dataset, time) for time in (_spread(dataset) if times is None else times)]
     view, exact = view_of(dataset, frames), exact_case(dataset)
-    columns = 1 if len(frames) == 1 or width < _WIDTH or view[0][1] - view[0][0] > 6 * (view[1][1] - view[1][0]) else 2
+    columns = 1 if len(frames) == 1 or width < _WIDTH or stretch_of(view, (width - 1.6) / 2) > 1 else 2
     rows = math.ceil(len(frames) / columns)
     stretch = stretch_of(view, (width - 1.6) / columns)
     height = rows * _panel_height(view, (width - 1.6) / columns, stretch)

@@ -20,17 +20,18 @@ def work_of_bodies(dataset: xr.Dataset) -> Array | None:
     """
     if "body_velocity" not in dataset or "wall_force" not in dataset or not dataset.sizes["probe_time"]:
         return None
-    times, dim = dataset["probe_time"].values, int(dataset.attrs["dimension"])
+    times = dataset["probe_time"].values
     power = np.zeros(len(times))
     for wall, body in enumerate(dataset["wall_body"].values):
         if body >= 0:
             force = dataset["wall_force"].values[:, wall]
             moment = dataset["wall_moment"].values[:, wall].reshape(len(times), -1)
             velocity = dataset["body_velocity"].values[:, body]
-            power -= np.einsum("tx,tx->t", force, velocity[:, :dim]) + np.einsum("tx,tx->t", moment, velocity[:, dim:])
+            omega = dataset["body_angular_velocity"].values[:, body].reshape(len(times), -1)
+            power -= np.einsum("tx,tx->t", force, velocity) + np.einsum("tx,tx->t", moment, omega)
             reference, centre = dataset["wall_reference"].values[wall], dataset["body_centre"].values[body]
             if np.any(reference != centre):
                 for k, time in enumerate(times):
                     now, middle = moved(np.vstack([reference, centre]), dataset, int(body), float(time))
-                    power[k] -= force[k] @ turning_velocities(velocity[k, dim:], (now - middle)[None])[0]
+                    power[k] -= force[k] @ turning_velocities(omega[k], (now - middle)[None])[0]
     return np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(times))])

@@ -83,9 +83,12 @@ def sample_of(simulation: RunView) -> dict[str, Any]:
             for name in ("moment", "moment_by_pressure") if found else ():
                 sample[f"{where}_{name}"] = [getattr(load, name)[squeezed] for load in found]
     if scene.bodies:
-        motions = simulation.body_motions()
+        motions, dim = simulation.body_motions(), simulation.case.dimension
+        turning = 2 if dim == 2 else slice(3, None)
         for name in ("position", "velocity", "acceleration"):
-            sample[f"body_{name}"] = [getattr(motions[body], name) for body in scene.bodies]
+            turned = "angle" if name == "position" else f"angular_{name}"
+            sample[f"body_{name}"] = [getattr(motions[body], name)[:dim] for body in scene.bodies]
+            sample[f"body_{turned}"] = [getattr(motions[body], name)[turning] for body in scene.bodies]
     return sample
 
 
@@ -108,7 +111,6 @@ def _dimensions(simulation: RunView) -> dict[str, int | None]:
     triangles = sum(len(wall.triangles()) for wall in scene.walls)
     lengths = {
         "space": case.dimension,
-        "motion": 3 * case.dimension - 3,
         "probe": len(scene.probes),
         "gauge": len(scene.gauges),
         "wall": len(scene.walls),
@@ -138,7 +140,7 @@ def _define(file: netCDF4.Dataset, simulation: RunView, lengths: Mapping[str, in
                 made = file.createVariable(name, "S1", (*variable.dimensions, width))
                 made.setncattr("_Encoding", "utf-8")
             else:
-                fill = np.nan if variable.type == "f8" else None
+                fill = np.nan if variable.type == "f8" and variable.fill else None
                 made = file.createVariable(name, variable.type, variable.dimensions, fill_value=fill)
                 made.setncattr("units", unit_of(variable, dimension))
             made.setncattr("long_name", variable.long_name)
@@ -148,6 +150,11 @@ def _define(file: netCDF4.Dataset, simulation: RunView, lengths: Mapping[str, in
         if where in lengths:
             known = axes if where == "probe" else axes[:-1]
             file[name].setncattr("coordinates", " ".join(f"{where}_{axis}" for axis in known))
+    for name in ("probe", "gauge"):
+        for k, axis in enumerate(axes):
+            if f"{name}_{axis}" in file.variables:
+                upward = {"axis": "Z", "positive": "up"} if k == dimension - 1 else {"axis": axis.upper()}
+                file[f"{name}_{axis}"].setncatts(upward)
     file["run_status"].setncattr("flag_values", np.array([int(status) for status in RunStatus], dtype=np.int32))
     file["interpolation_status"].setncattr("comment", "; ".join(f"{s.name}: {s.advice}" for s in Status))
     file.setncatts(_attributes(simulation))
@@ -164,18 +171,21 @@ def _variables(simulation: RunView) -> dict[str, Variable]:
             raise OutputError(f"the case's diagnostic {diagnostic.name!r} has the name of another variable: rename it")
         diagnostics[diagnostic.name] = Variable(("probe_time",), diagnostic.unit, diagnostic.long_name)
     known = {name: variable for name, variable in VARIABLES.items() if name not in absent}
-    if dimension == 2:  # moments are scalars
-        known |= {name: replace(v, dimensions=v.dimensions[:-1]) for name, v in known.items() if "_moment" in name}
+    if dimension == 2:  # moments and angles are scalars
+        known |= {name: replace(v, dimensions=v.dimensions[:-1]) for name, v in known.items() if _is_turning(name)}
     mass = known.pop("particle_mass")
     fixed = {name: variable for name, variable in known.items() if "time" not in variable.dimensions}
     return {**fixed, **diagnostics, "particle_mass": mass, **known}
+
+
+def _is_turning(name: str) -> bool:
+    return "_moment" in name or name.startswith("body_ang")
 
 
 def _names(simulation: RunView) -> dict[str, Sequence[str]]:
     scene, dimension = simulation.scene, simulation.case.dimension
     return {
         "space": tuple("xyz"[:dimension]),
-        "motion": ("x", "y", "angle") if dimension == 2 else ("x", "y", "z", "rx", "ry", "rz"),
         "probe": [probe.name for probe in scene.probes],
         "gauge": [gauge.name for gauge in scene.gauges],
         "wall": [wall.name for wall in scene.walls],
@@ -192,6 +202,7 @@ def _fill_start(file: netCDF4.Dataset, simulation: RunView) -> None:
             file[name][:] = encode_texts(names, len(file.dimensions[f"{name}_length"]))
     file["run_status"][...] = int(RunStatus.RUNNING)
     file["run_message"][:] = encode_texts([""], _MESSAGE_LENGTH)[0]
+    file["probe_time"][:] = np.nan  # until a sample is written
     for k, axis in enumerate("xyz"[:dimension]):
         if scene.probes:
             file[f"probe_{axis}"][:] = [probe.position[k] for probe in scene.probes]
@@ -209,8 +220,9 @@ def _fill_start(file: netCDF4.Dataset, simulation: RunView) -> None:
             file["triangle_node"][:] = np.concatenate(triangles)
             file["triangle_wall"][:] = np.repeat(np.arange(len(triangles)), [len(part) for part in triangles])
         walls = [wall.name for wall in scene.walls]
-        centres = {None: (), **{name: body.centre for name, body in scene.bodies.items()}}
-        references = [wall.reference_point or centres[wall.body] for wall in scene.walls]
+        references = [
+            wall.reference_point or (scene.bodies[wall.body].centre if wall.body else ()) for wall in scene.walls
+        ]
         file["wall_reference"][:] = [(*point, 0.0, 0.0, 0.0)[:dimension] for point in references]
         if scene.wall_parts:
             file["part_wall"][:] = [walls.index(part.wall) for part in scene.wall_parts]
@@ -219,7 +231,7 @@ def _fill_start(file: netCDF4.Dataset, simulation: RunView) -> None:
         if members:
             file[f"{name}_body"][:] = [bodies[member.body] for member in members]
     if scene.bodies:
-        file["body_centre"][:] = [(*centres[name], 0.0)[:dimension] for name in scene.bodies]
+        file["body_centre"][:] = [(*body.centre, 0.0)[:dimension] for body in scene.bodies.values()]
     if simulation.ghost_count:
         ghosts = simulation.ghosts
         file["ghost_body"][:] = ghosts.body
@@ -235,7 +247,7 @@ def _attributes(simulation: RunView) -> dict[str, Any]:
     for field in COMPONENT_KINDS:
         chosen = getattr(case, field)
         components[field] = {"name": chosen.name, **chosen.options}
-    versions = distributions(case)
+    versions, created = distributions(case), datetime.now(UTC).isoformat(timespec="seconds")
     return {
         "Conventions": CONVENTIONS,
         "title": case.title,
@@ -245,7 +257,9 @@ def _attributes(simulation: RunView) -> dict[str, Any]:
         "components": json.dumps(components),
         "distributions": json.dumps(versions),
         "software": json.dumps(software()),
-        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "created": created,
+        "history": f"{created} sphframe {versions['sphframe']}: simulated",
+        "references": "https://sphframe.readthedocs.io",
         "dimension": np.int32(case.dimension),
         "particle_spacing": case.particle_spacing,
         "smoothing_length": simulation.smoothing_length,

@@ -39,10 +39,10 @@ def open_dataset(path: str | os.PathLike[str]) -> "xr.Dataset":
     path = Path(path)
     if not path.exists():
         raise InputError(f"{path} does not exist: check the name, or write it with sphframe run CASE --output {path}")
-    if not path.is_file():
+    if path.is_dir() and path.suffix != ".zarr":
         raise InputError(f"{path} is not a file: name the .nc file of a run")
     try:
-        dataset = xr.open_dataset(path, engine="netcdf4", decode_times=False)
+        dataset = xr.open_dataset(path, engine="zarr" if path.is_dir() else "netcdf4", decode_times=False)
     except PermissionError:
         raise InputError(f"{path} cannot be read: check its permissions") from None
     except (OSError, ValueError, KeyError, RuntimeError) as error:
@@ -51,22 +51,32 @@ def open_dataset(path: str | os.PathLike[str]) -> "xr.Dataset":
             " again"
         ) from error
     try:
-        return _prepared(dataset, path)
+        return prepared(dataset, str(path))
     except BaseException:
         dataset.close()
         raise
 
 
-def _prepared(dataset: "xr.Dataset", path: Path) -> "xr.Dataset":
+def prepared(dataset: "xr.Dataset", name: str = "the dataset") -> "xr.Dataset":
+    """Return the dataset of a file, however xarray opened it, without padding and with the status in its attributes.
+
+    A dataset that has been prepared before is returned as it is, also if it was saved and opened meanwhile.
+
+    Raises
+    ------
+    InputError: it is not that of a run, or the file is truncated.
+    """
     if "case_parameters" not in dataset.attrs or "particle_mass" not in dataset:
         raise InputError(
-            f"{path} is a NetCDF file, but not the output of a sphframe run: it has no case_parameters. Name another,"
+            f"{name} is a NetCDF file, but not the output of a sphframe run: it has no case_parameters. Name another,"
             " or copy it again if it was truncated"
         )
     if "processor_time" not in dataset:
         raise InputError(
-            f"{path} was written by an earlier version of sphframe: repeat the run, sphframe run {path} --output NEW.nc"
+            f"{name} was written by an earlier version of sphframe: repeat the run, sphframe run FILE --output NEW.nc"
         )
+    if "run_status" not in dataset:
+        return dataset
     try:
         last_values = [dataset["particle_mass"][-1]]
         if dataset.sizes["time"]:
@@ -75,13 +85,16 @@ def _prepared(dataset: "xr.Dataset", path: Path) -> "xr.Dataset":
     except (OSError, RuntimeError):
         whole = False
     if not whole:
-        raise InputError(f"{path} is truncated: part of it is missing; copy it again, or run again")
+        raise InputError(f"{name} is truncated: part of it is missing; copy it again, or run again")
     samples = int(np.isfinite(dataset["probe_time"].values).sum())
     status = RunStatus(int(dataset["run_status"]))
     message = str(dataset["run_message"].astype(str).values)
     file = dataset
     dataset = file.isel(probe_time=slice(samples)).drop_vars(["run_status", "run_message"])
     dataset.set_close(file.close)
+    for variable in dataset.variables.values():  # of the file: another one has other lengths
+        for key in ("original_shape", "char_dim_name"):
+            variable.encoding.pop(key, None)
     dataset.attrs["run_status"] = status.name.lower()
     dataset.attrs["run_message"] = message
     dataset.attrs["completed"] = "yes" if status is RunStatus.COMPLETED else "no"

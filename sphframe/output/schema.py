@@ -36,6 +36,7 @@ class Variable:
     long_name: what it is, as the label of an axis.
     type: ``f8``, ``i4``, or ``text`` (fixed-length UTF-8).
     per_width: whether the quantity is per metre of width in 2-D; its unit is then divided by m.
+    fill: whether values that have not been written are marked by ``_FillValue``, which coordinates must not have.
     attributes: further CF attributes.
     """
 
@@ -44,6 +45,7 @@ class Variable:
     long_name: str
     type: Literal["f8", "i4", "text"] = "f8"
     per_width: bool = False
+    fill: bool = True
     attributes: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -71,7 +73,6 @@ _ABOUT = {"comment": "about the reference point of the wall, by default the cent
 VARIABLES: Mapping[str, Variable] = {
     # names along the dimensions
     "space": _text(("space",), "axis of space; the last one is the height"),
-    "motion": _text(("motion",), "generalised coordinate of a body"),
     "probe": _text(("probe",), "pressure probe"),
     "gauge": _text(("gauge",), "free-surface gauge"),
     "wall": _text(("wall",), "wall"),
@@ -83,9 +84,9 @@ VARIABLES: Mapping[str, Variable] = {
         (), "1", "how the run stands", "i4", attributes={"flag_meanings": "running completed failed"}
     ),
     "run_message": _text((), "why the run failed"),
-    **{f"probe_{axis}": Variable(("probe",), "m", f"position of the probe along {axis}") for axis in "xyz"},
+    **{f"probe_{axis}": Variable(("probe",), "m", f"position of the probe along {axis}", fill=False) for axis in "xyz"},
     "probe_radius": Variable(("probe",), "m", "radius over which the probe averages; 0 for a point"),
-    **{f"gauge_{axis}": Variable(("gauge",), "m", f"position of the gauge along {axis}") for axis in "xy"},
+    **{f"gauge_{axis}": Variable(("gauge",), "m", f"position of the gauge along {axis}", fill=False) for axis in "xy"},
     "probe_body": Variable(("probe",), "1", "index of the body that carries the probe; -1 for a probe at rest", "i4"),
     "gauge_body": Variable(("gauge",), "1", "index of the body that carries the gauge; -1 for a gauge at rest", "i4"),
     "part_wall": Variable(("part",), "1", "index of the wall of which it is a part", "i4"),
@@ -103,7 +104,7 @@ VARIABLES: Mapping[str, Variable] = {
     "ghost_mirror_position": Variable(("ghost", "space"), "m", "mirror point of the ghost particle at the start"),
     "ghost_body": Variable(("ghost",), "1", "index of the body that carries the ghost; -1 for a ghost at rest", "i4"),
     # samples
-    "probe_time": Variable(("probe_time",), "s", "time of the samples"),
+    "probe_time": Variable(("probe_time",), "s", "time of the samples", fill=False),
     "step": Variable(("probe_time",), "1", "steps taken", "i4"),
     "time_step": Variable(("probe_time",), "s", "time step"),
     "wall_clock": Variable(("probe_time",), "s", "wall-clock time since the start of the run"),
@@ -133,15 +134,18 @@ VARIABLES: Mapping[str, Variable] = {
         for load, unit, about in (("force", "N", {}), ("moment", "N m", _ABOUT))
         for suffix, how in (("", "reaction of its ghosts"), ("_by_pressure", "integral of pressure"))
     },
-    "body_position": Variable(("probe_time", "body", "motion"), "m", "displacement of the body (angles in rad)"),
-    "body_velocity": Variable(("probe_time", "body", "motion"), "m s-1", "velocity of the body (angles in rad)"),
-    "body_acceleration": Variable(
-        ("probe_time", "body", "motion"), "m s-2", "acceleration of the body (angles in rad)"
+    "body_position": Variable(("probe_time", "body", "space"), "m", "displacement of the body's centre"),
+    "body_velocity": Variable(("probe_time", "body", "space"), "m s-1", "velocity of the body's centre"),
+    "body_acceleration": Variable(("probe_time", "body", "space"), "m s-2", "acceleration of the body's centre"),
+    "body_angle": Variable(("probe_time", "body", "space"), "rad", "angle of the body, in 3-D a rotation vector"),
+    "body_angular_velocity": Variable(("probe_time", "body", "space"), "rad s-1", "angular velocity of the body"),
+    "body_angular_acceleration": Variable(
+        ("probe_time", "body", "space"), "rad s-2", "angular acceleration of the body"
     ),
     # last of the fixed part: its last value is never zero, so a zero there reveals a truncated file
     "particle_mass": Variable(("particle",), "kg", "mass of the particle", per_width=True),
     # frames
-    "time": Variable(("time",), "s", "time of the frames"),
+    "time": Variable(("time",), "s", "time of the frames", fill=False),
     "position": Variable(("time", "particle", "space"), "m", "position"),
     "turns": Variable(
         ("time", "particle", "space"),

@@ -91,6 +91,10 @@ def test_fields_at_a_time(tank: xr.Dataset) -> None:
     frame = tank.sph.at(0.0101)
     assert float(frame.time) == pytest.approx(0.01, abs=0.001)
     assert frame.speed.shape == (480,)
+    table = frame.to_dataframe()
+    assert len(table) == 480, "one row a particle"
+    np.testing.assert_array_equal(table[["x", "y"]], tank.position.sel(time=frame.time))
+    np.testing.assert_allclose(table.velocity_x**2 + table.velocity_y**2, table.speed**2)
     assert float(tank.sph.at().time) == pytest.approx(0.02)
     with pytest.raises(InputError, match="outside the run"):
         tank.sph.at(5.0)
@@ -283,17 +287,19 @@ def test_work_of_bodies(tank: xr.Dataset, reference: list[float]) -> None:
         wall_moment=(("probe_time", "wall"), moment[:, None]),
         wall_reference=(("wall", "space"), [reference]),
         body_centre=(("body", "space"), [[0.0, 0.0]]),
-        body_position=(("probe_time", "body", "motion"), np.stack([2.0 * t, zero, angle], axis=1)[:, None]),
-        body_velocity=(("probe_time", "body", "motion"), np.tile([[2.0, 0.0, 4.0]], (n, 1, 1))),
+        body_position=(("probe_time", "body", "space"), np.stack([2.0 * t, zero], axis=1)[:, None]),
+        body_angle=(("probe_time", "body"), angle[:, None]),
+        body_velocity=(("probe_time", "body", "space"), np.tile([[2.0, 0.0]], (n, 1, 1))),
+        body_angular_velocity=(("probe_time", "body"), np.full((n, 1), 4.0)),
     )
     work = work_of_bodies(made)
     assert work is not None
     np.testing.assert_allclose(work, (3.0 * 2.0 + 5.0 * 4.0) * t, rtol=1e-12, atol=1e-12)
     assert summary(made)["work_of_bodies"] == pytest.approx(26.0 * 0.02)
     assert summary(tank)["work_of_bodies"] == 0.0
-    figure = plot_run(made.assign_coords(body=["float"], motion=["x", "y", "angle"]))
+    figure = plot_run(made.assign_coords(body=["float"]))
     labels = [axes.get_ylabel() for axes in figure.axes]
-    for text in ("displacement of bodies (m)", "angle of bodies (°)", "force of the fluid (N/m)", "energy (J/m)"):
+    for text in ("displacement of bodies (m)", "angle of bodies (°)", "force of the fluid (N/m)", "energy (mJ/m)"):
         assert text in labels, labels
     shown = [text.get_text() for text in figure.findobj() if hasattr(text, "get_text")]
     assert {"work of bodies", "float angle", "float x"} <= set(shown)

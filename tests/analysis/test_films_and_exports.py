@@ -10,7 +10,7 @@ import xarray as xr
 from typer.testing import CliRunner
 
 import sphframe
-from sphframe.analysis import animate_run, export_run, plot_run, references_for, vtk_parts
+from sphframe.analysis import animate_run, export_run, particles_at, plot_run, references_for, vtk_parts
 from sphframe.analysis.drawing import view_of
 from sphframe.analysis.films import film_frames
 from sphframe.analysis.placed import walls_at
@@ -95,9 +95,10 @@ def test_turned_bodies_are_drawn_turned(name: str, turn: list[float], request: p
     dataset = request.getfixturevalue(name)
     dim, end = dataset.sizes["space"], float(dataset.time[-1])
     centre = np.array([0.2, 0.3] if dim == 2 else [0.2, 7.0, 0.3])
-    progress = dataset["probe_time"].values / end
+    progress, angle = dataset["probe_time"].values / end, turn[2] if dim == 2 else turn[3:]
     made = dataset.assign(
-        body_position=(("probe_time", "body", "motion"), progress[:, None, None] * np.array(turn)),
+        body_position=(("probe_time", "body", "space"), progress[:, None, None] * np.array(turn[:dim])),
+        body_angle=(("probe_time", "body", *(["space"] * (dim - 2))), np.multiply.outer(progress, angle)[:, None]),
         body_centre=(("body", "space"), centre[None]),
         wall_body=dataset["wall_body"] * 0,
         ghost_body=dataset["ghost_body"] * 0,
@@ -112,7 +113,7 @@ def test_turned_bodies_are_drawn_turned(name: str, turn: list[float], request: p
 
     walls = np.concatenate([points for points, _ in walls_at(made, end)])
     np.testing.assert_allclose(walls, expected(dataset["outline_node"].values), atol=1e-12)
-    assert np.ptp(view_of(made, [made.sph.at(end)])[1]) > 0.9, "the picture shows where the walls have turned to"
+    assert np.ptp(view_of(made, [particles_at(made, end)])[1]) > 0.9, "the picture shows where the walls have turned to"
     parts = pytest.importorskip("pyvista") and vtk_parts(made, end)
     flat = np.s_[:, :dim]
     np.testing.assert_allclose(parts["ghosts"].points[flat], expected(dataset["ghost_position"].values), atol=1e-12)

@@ -41,7 +41,7 @@ def test_values_come_back(written: Path) -> None:
     np.testing.assert_allclose(dataset.total_energy, dataset.kinetic_energy + 3.0)
     np.testing.assert_allclose(dataset.mass, 500.0)
     np.testing.assert_allclose(dataset.front_position, 2.0 + dataset.probe_time)
-    np.testing.assert_allclose(dataset.body_position.sel(body="paddle", motion="x"), dataset.probe_time)
+    np.testing.assert_allclose(dataset.body_position.sel(body="paddle", space="x"), dataset.probe_time)
     np.testing.assert_allclose(dataset.wall_force_by_pressure.sel(wall="tank", space="y"), 2.5)
     assert dataset.interpolation_status.sel(status="OK").values.tolist() == [20] * 31
     assert dataset.wall_body.values.tolist() == [-1, 0]

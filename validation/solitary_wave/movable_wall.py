@@ -40,7 +40,7 @@ def tasks(quick: bool) -> list[studies.Task]:
 def row(movable: xr.Dataset, at_rest: xr.Dataset) -> dict[str, studies.Cell]:
     """Return the key figures; forces F over the static one, and the wall's work over its energy."""
     t = movable["probe_time"].values
-    x, u = (movable[f"body_{name}"].sel(body="seawall", motion="x").values for name in ("position", "velocity"))
+    x, u = (movable[f"body_{name}"].sel(body="seawall", space="x").values for name in ("position", "velocity"))
     force = seawall_force(movable).values
     power = np.maximum(force - 1.1, 0.0) * 0.5 * float(movable.attrs["depth"]) * pressure_scale(movable) * u
     work = float(np.sum(0.5 * (power[1:] + power[:-1]) * np.diff(t)))
@@ -71,7 +71,7 @@ def histories(movable: xr.Dataset, at_rest: xr.Dataset) -> studies.Picture:
     for dataset, label in ((at_rest, "at rest"), (movable, "movable")):
         force = seawall_force(dataset)
         left.plot(*studies.thinned(force["probe_time"], force), label=label, linewidth=1.0)
-    shift = movable["body_position"].sel(body="seawall", motion="x") / movable.attrs["depth"]
+    shift = movable["body_position"].sel(body="seawall", space="x") / movable.attrs["depth"]
     right.axhline(0.0, color="C0", linewidth=1.0, label="at rest")
     right.plot(*studies.thinned(shift["probe_time"], shift), color="C1", label="movable")
     for axes, name in ((left, "F* = F / F static"), (right, "x* = X / d")):

@@ -69,7 +69,7 @@ def _force(dataset: xr.Dataset) -> np.ndarray[Any, Any]:
 def _key_figures(dataset: xr.Dataset) -> dict[str, Any]:
     """Return forces over the hydrostatic force, when they and the pressure on the bed are largest, s, and places, m."""
     t = dataset["probe_time"].values
-    x = dataset["body_position"].sel(body="seawall", motion="x").values
+    x = dataset["body_position"].sel(body="seawall", space="x").values
     force, bed = _force(dataset), dataset["probe_pressure"][:, 0].values
     moved = np.flatnonzero(x > 0.0)
     onset = float(t[moved[0]]) if moved.size else math.nan
@@ -137,7 +137,7 @@ def _histories(runs: Mapping[str, xr.Dataset]) -> Picture:
         line = "-" if variant in (SHEPARD, SFDI) else ":"
         t = dataset["probe_time"]
         draw_history(left, variant, t, _force(dataset), label=f"{variant.label}, movable", linestyle=line)
-        shift = dataset["body_position"].sel(body="seawall", motion="x") / float(dataset.attrs["depth"])
+        shift = dataset["body_position"].sel(body="seawall", space="x") / float(dataset.attrs["depth"])
         draw_history(right, variant, t, shift, linestyle=line)
     for variant in (SHEPARD, SFDI):
         dataset = runs[_held_label(variant)]
