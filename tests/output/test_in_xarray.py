@@ -92,6 +92,7 @@ def test_coordinates_and_units_follow_cf(path: Path) -> None:
     np.testing.assert_array_equal(dataset.probe_pressure.cf["vertical"], dataset.probe_y)
 
 
+@pytest.mark.parametrize("path", ["complete"], indirect=True)
 def test_the_compliance_checker_finds_no_other_error_than_that_time_is_no_date(path: Path) -> None:
     """Simulated time has no date: CF asks for one, and with it xarray would turn all times into dates."""
     pytest.importorskip("compliance_checker")
