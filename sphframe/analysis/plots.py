@@ -99,8 +99,7 @@ def plot_run(
     figure.suptitle(with_stretch(run_title(dataset), stretch), fontsize=12, wrap=True)
     if path is not None:
         save_figure(figure, path)
-    drawn: Figure = figure
-    return drawn
+    return figure  # type: ignore[no-any-return]
 
 
 def _panel_height(view: View, width: float, stretch: int) -> float:
