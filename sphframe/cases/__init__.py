@@ -3,13 +3,14 @@
 from sphframe.cases.case import Case, Guards, Parameter, parameters_of
 from sphframe.cases.checks import CaseWarning, check_case
 from sphframe.cases.custom import Custom
-from sphframe.cases.exact import ExactCase
+from sphframe.cases.exact import Benchmark, ExactCase
 from sphframe.cases.load import load_case, read_toml
 from sphframe.cases.parameters import Component, Derived, downward_gravity, quantity, with_default, written
 from sphframe.cases.scene import Diagnostic, Gauge, Probe, Scene, WallPart
 from sphframe.interfaces import Fields
 
 __all__ = [
+    "Benchmark",
     "Case",
     "CaseWarning",
     "Component",

@@ -73,6 +73,10 @@ class Case(BaseModel, ABC):
         ge=1.0,
         le=3.0,
     )
+    jitter: float = quantity(
+        0.0, "1", "largest random displacement of the particles at the start, over the spacing", ge=0, le=0.2
+    )
+    seed: int = quantity(0, "1", "seed of these displacements", ge=0)
     reference_density: float = quantity(1000.0, "kg m-3", "density of the fluid at zero pressure", gt=0)
     periodic: tuple[Literal["x", "y", "z"], ...] = quantity(
         (), "1", "directions in which the domain repeats itself; the domain's extent is the period"

@@ -1,7 +1,9 @@
 """Cases: flows that are known exactly."""
 
 from abc import abstractmethod
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -11,11 +13,32 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+@dataclass(frozen=True)
+class Benchmark:
+    """Runs of a case by which methods are ranked, see :func:`sphframe.studies.rank`.
+
+    Attributes
+    ----------
+    score: name of the error, in :meth:`ExactCase.errors`, by which methods are ranked.
+    isolates: what the case isolates, in a sentence.
+    spacings: particle spacings, m, the coarsest first; ``sphframe rank --quick`` uses the coarsest alone.
+    parameters: further parameters of the case.
+    """
+
+    score: str
+    isolates: str
+    spacings: tuple[float, ...]
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+
+
 class ExactCase(Case):
     """A case with an exact solution, ``dataset.sph.exact``, with which its runs are compared.
 
     The summary of a run then holds its ``errors``, and its picture shows run and solution.
     """
+
+    benchmarks: ClassVar[Mapping[str, Benchmark]] = {}
+    """benchmarks of the league table that are runs of this case, by name"""
 
     @abstractmethod
     def exact(self, dataset: "xr.Dataset") -> "xr.Dataset":

@@ -30,6 +30,7 @@ sphframe {version}: a laboratory for wall boundaries in SPH free-surface flow
   sphframe resume dam-break.nc  continue a run that was interrupted
   sphframe compare dam-break    several methods and resolutions side by side
   sphframe reproduce            a study, such as a whole paper, with a report
+  sphframe rank                 every method on every benchmark: the league table
   sphframe plot dam-break.nc    pictures: particles, probes, energies
   sphframe animate dam-break.nc a film, .mp4 or .gif
   sphframe watch dam-break.nc   a page that shows a run while it is running
@@ -133,6 +134,9 @@ def _compare(
     probe: Annotated[
         str | None, typer.Option(metavar="NAME", help="the probe to compare; by default the first")
     ] = None,
+    repeats: Annotated[
+        int, typer.Option(metavar="N", help="runs with displaced particles: 95 % bands of peaks and impulses")
+    ] = 1,
     workers: Workers = None,
     scheduler: Scheduler = None,
     output: Annotated[Path, typer.Option(metavar="DIR", help="folder for the dataset, report and runs")] = Path(
@@ -153,6 +157,7 @@ def _compare(
         parameters=read_assignments(assignments or [], {}),
         reference=reference,
         probe=probe,
+        repeats=repeats,
         workers=workers,
         scheduler=scheduler,
         output=output,
@@ -185,6 +190,44 @@ def _reproduce(
 
     reproduce_command(
         study, only=only or [], quick=quick, reference=reference, workers=workers, scheduler=scheduler, output=output
+    )
+
+
+@app.command("rank")
+def _rank(
+    output: Annotated[Path, typer.Option(metavar="DIR", help="folder for the pages, tables and runs")] = Path("league"),
+    methods: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME", help="an interpolator or wall treatment; repeatable, or with commas; default: all"
+        ),
+    ] = None,
+    cases: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME", help="a benchmark, such as drum-rotation; repeatable, or with commas; default: all"
+        ),
+    ] = None,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="the coarsest resolution of each benchmark alone, once")
+    ] = False,
+    repeats: Annotated[
+        int | None, typer.Option(metavar="N", help="runs with displaced particles; default: 3, with --quick 1")
+    ] = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+) -> None:
+    """Run every installed method on every benchmark: errors, ranks, orders and costs on pages that can be sorted."""
+    from sphframe.cli.rank import rank_command
+
+    rank_command(
+        output=output,
+        methods=methods or [],
+        benchmarks=cases or [],
+        quick=quick,
+        repeats=repeats,
+        workers=workers,
+        scheduler=scheduler,
     )
 
 

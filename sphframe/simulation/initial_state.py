@@ -70,6 +70,8 @@ def drawn(case: Case, scene: Scene, components: Components, parameters: LoopPara
     spacing = case.particle_spacing
     fills = [fill(region, spacing) for region in scene.fluid]
     position = np.vstack([filled.position for filled in fills])
+    if case.jitter > 0.0:
+        position += case.jitter * spacing * np.random.default_rng(case.seed).uniform(-1.0, 1.0, position.shape)
     volume = np.concatenate([filled.volume for filled in fills])
     boundary = initial_boundary(case, scene, components, parameters)
     region = np.repeat(np.arange(len(fills)), [len(filled.volume) for filled in fills])

@@ -6,6 +6,7 @@ from sphframe.studies.chapter import Cell, Chapter, Claim, Picture, Table, Verdi
 from sphframe.studies.comparison import Comparison, compare
 from sphframe.studies.drawing import colour, picture, thinned, tidy
 from sphframe.studies.engine import Progress
+from sphframe.studies.league import League, rank
 from sphframe.studies.measurement import CostTask
 from sphframe.studies.reproduce import reproduce
 from sphframe.studies.section import Section, run_task
@@ -19,6 +20,7 @@ __all__ = [
     "Claim",
     "Comparison",
     "CostTask",
+    "League",
     "Picture",
     "Progress",
     "Reference",
@@ -37,6 +39,7 @@ __all__ = [
     "installed_study",
     "new_figure",
     "picture",
+    "rank",
     "reproduce",
     "run_task",
     "thinned",

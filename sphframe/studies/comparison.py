@@ -16,6 +16,7 @@ from sphframe.output.files import replaced_as_a_whole
 from sphframe.studies.comparison_chapter import comparison_chapter
 from sphframe.studies.comparison_dataset import comparison_dataset
 from sphframe.studies.engine import ProgressListener, carry_out
+from sphframe.studies.ensemble import displaced, ensemble_variables
 from sphframe.studies.report import write_report
 from sphframe.studies.tasks import RunTask, software_of
 
@@ -47,6 +48,7 @@ def compare(
     parameters: Mapping[str, Any] | None = None,
     reference: Path | None = None,
     probe: str | None = None,
+    repeats: int = 1,
     workers: int | None = None,
     scheduler: str | None = None,
     on_progress: ProgressListener | None = None,
@@ -66,6 +68,9 @@ def compare(
     output: folder for ``comparison.nc``, ``report.html``, ``report.md``, ``figures/``, ``tables/`` and ``runs/``.
     reference: file of a series of p/(rho g H) over t sqrt(g/H), see :func:`sphframe.analysis.read_reference_series`.
     probe: name of the probe that is compared with the reference; by default the first.
+    repeats: number of runs with each method at each spacing. The particles start displaced at random, by up to a
+        fiftieth of a spacing, in all but the first; the dataset then holds ``peak`` and ``impulse`` of each probe in
+        each run, and the report their 95 % bands and which methods differ significantly.
     workers, scheduler, on_progress: see :func:`sphframe.studies.engine.carry_out`.
 
     Raises
@@ -74,12 +79,16 @@ def compare(
     OutputError: the folder cannot be written.
     SphframeError: a run could not be made. A run that is stopped by its guards raises nothing: it is a result.
     """
-    tasks = _tasks(case, interpolators, spacings, preset, parameters or {})
+    if not 1 <= repeats <= 1000:
+        raise InputError(f"repeats = {repeats}: give a number of runs from 1 to 1000")
+    tasks = _tasks(case, interpolators, spacings, preset, parameters or {}, repeats)
     series = None if reference is None else read_reference_series(reference.parent, reference.stem)
     files = carry_out(tasks.values(), output / "runs", workers=workers, scheduler=scheduler, on_progress=on_progress)
     with contextlib.ExitStack() as stack:
         runs = {key: stack.enter_context(open_dataset(files[task.label])) for key, task in tasks.items()}
-        dataset = comparison_dataset(runs, series, probe)
+        dataset = comparison_dataset({key[:2]: run for key, run in runs.items() if key[2] == 0}, series, probe)
+        if repeats > 1:
+            dataset = dataset.assign(ensemble_variables(runs))
     with replaced_as_a_whole(output / "comparison.nc") as draft:
         dataset.to_netcdf(draft, engine="netcdf4")
     sizes = dataset["error"].sizes
@@ -94,17 +103,21 @@ def _tasks(
     spacings: Sequence[float],
     preset: str | None,
     parameters: Mapping[str, Any],
-) -> dict[tuple[str, float], RunTask]:
-    """Return the runs by method and particle spacing, the largest spacing first."""
+    repeats: int,
+) -> dict[tuple[str, float, int], RunTask]:
+    """Return the runs by method, particle spacing and number of the repeat, the largest spacing first."""
     if len(set(interpolators)) != len(interpolators) or not interpolators:
         raise InputError(f"give each method once, such as improved-shepard,mls-linear, not {','.join(interpolators)}")
     given = {name: value for name, value in parameters.items() if name != "particle_spacing"}
     chosen = sorted({float(s) for s in spacings} or {load_case(case, preset, given).particle_spacing}, reverse=True)
     return {
-        (method, spacing): RunTask.of(
-            f"{method} {spacing:g}",
-            load_case(case, preset, {**given, "interpolator.name": method, "particle_spacing": spacing}),
+        (method, spacing, seed): RunTask.of(
+            f"{method} {spacing:g}" + (f" {seed}" if seed else ""),
+            load_case(
+                case, preset, {**given, **displaced(seed), "interpolator.name": method, "particle_spacing": spacing}
+            ),
         )
         for method in interpolators
         for spacing in chosen
+        for seed in range(repeats)
     }

@@ -9,6 +9,7 @@ import xarray as xr
 from sphframe.analysis.figures import new_figure
 from sphframe.studies.chapter import Cell, Chapter, Picture, Table
 from sphframe.studies.drawing import colour, picture, thinned, tidy
+from sphframe.studies.ensemble import band_table, difference_table
 
 
 def comparison_chapter(dataset: xr.Dataset) -> Chapter:
@@ -23,7 +24,10 @@ def comparison_chapter(dataset: xr.Dataset) -> Chapter:
             " them more precisely."
             + (" The machine was not idle: some runs had to wait for processors." if dataset["waited"].any() else "")
         ],
-        [Table("comparison", "Error and cost of each method at each resolution", _rows(dataset))],
+        [
+            Table("comparison", "Error and cost of each method at each resolution", _rows(dataset)),
+            *([band_table(dataset), difference_table(dataset)] if "peak" in dataset else []),
+        ],
         [_curves(dataset), *([_histories(dataset)] if dataset.sizes["probe"] else [])],
     )
 

@@ -45,11 +45,11 @@ def write_report(
         "facts": facts,
         "counts": _count_verdicts(chapters),
     }
-    page, markdown = _render("report.html.j2", content), _render("report.md.j2", content)
+    page, markdown = render("report.html.j2", content), render("report.md.j2", content)
     _write_figures_and_tables(folder, chapters, claims)
-    _write(folder / "report.md", markdown.encode())
+    write_file(folder / "report.md", markdown.encode())
     path = folder / "report.html"
-    _write(path, page.encode())
+    write_file(path, page.encode())
     return path
 
 
@@ -76,7 +76,7 @@ def _count_verdicts(chapters: Sequence[Chapter]) -> dict[str, int]:
     return {verdict.value: found[verdict] for verdict in Verdict}
 
 
-def _render(template: str, content: Mapping[str, Any]) -> str:
+def render(template: str, content: Mapping[str, Any]) -> str:
     """Fill in a template. Text is escaped where the template makes HTML, and only there."""
     if find_spec("jinja2") is None:
         raise InputError("the report needs jinja2: install it with python -m pip install 'sphframe[reproduce]'")
@@ -97,10 +97,10 @@ def _render(template: str, content: Mapping[str, Any]) -> str:
 def _write_figures_and_tables(folder: Path, chapters: Sequence[Chapter], claims: Table) -> None:
     for chapter in chapters:
         for picture in chapter.pictures:
-            _write(folder / "figures" / f"{picture.name}.{picture.suffix}", picture.content)
+            write_file(folder / "figures" / f"{picture.name}.{picture.suffix}", picture.content)
     for table in [*(table for chapter in chapters for table in chapter.tables), claims]:
         if table.rows:
-            _write(folder / "tables" / f"{table.name}.csv", _csv(table).encode())
+            write_file(folder / "tables" / f"{table.name}.csv", _csv(table).encode())
 
 
 def shown(cell: Cell) -> str:
@@ -142,7 +142,7 @@ def _csv(table: Table) -> str:
     return file.getvalue()
 
 
-def _write(path: Path, content: bytes) -> None:
+def write_file(path: Path, content: bytes) -> None:
     """Replace the file ``path``; the old content stays until the new one is written completely."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

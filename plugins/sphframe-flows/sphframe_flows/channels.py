@@ -2,13 +2,14 @@
 
 import math
 from abc import abstractmethod
+from collections.abc import Mapping
 from typing import ClassVar, Literal, final
 
 import numpy as np
 import xarray as xr
 
 from sphframe import Array, Case, InputError
-from sphframe.cases import Component, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
+from sphframe.cases import Benchmark, Component, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import PolygonRegion, PolygonWall
 from sphframe_flows.solutions import late_mean, sample_times, variable
 
@@ -129,6 +130,14 @@ class Poiseuille(Channel):
     """
 
     title: ClassVar[str] = "plane Poiseuille flow"
+    benchmarks: ClassVar[Mapping[str, Benchmark]] = {
+        "poiseuille": Benchmark(
+            "velocity",
+            "Friction of straight walls: the velocity of ghosts with no slip.",
+            (0.0625, 0.03125),
+            {"tension": "free"},
+        )
+    }
 
     body_force: float = quantity(0.8, "m s-2", "body force f per mass, along x")
     acceleration: Component = with_default(
@@ -179,6 +188,11 @@ class Couette(Channel):
     """
 
     title: ClassVar[str] = "plane Couette flow"
+    benchmarks: ClassVar[Mapping[str, Benchmark]] = {
+        "couette": Benchmark(
+            "velocity", "Friction of a wall that slides along itself.", (0.0625, 0.03125), {"tension": "free"}
+        )
+    }
 
     wall_speed: float = quantity(1.0, "m s-1", "speed U of the lid")
 

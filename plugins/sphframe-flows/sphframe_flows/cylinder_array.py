@@ -1,13 +1,14 @@
 """Slow flow through a square array of cylinders."""
 
 import math
+from collections.abc import Mapping
 from typing import ClassVar, Literal, final
 
 import numpy as np
 import xarray as xr
 
 from sphframe import Case, InputError
-from sphframe.cases import Component, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
+from sphframe.cases import Benchmark, Component, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import Box, Circle, CircleWall, DifferenceRegion
 from sphframe_flows.solutions import late_mean, sample_times, variable
 
@@ -31,6 +32,9 @@ class CylinderArray(ExactCase):
     """
 
     title: ClassVar[str] = "slow flow through an array of cylinders"
+    benchmarks: ClassVar[Mapping[str, Benchmark]] = {
+        "cylinder-array": Benchmark("drag_factor", "Drag of a curved wall with no slip in slow flow.", (0.05, 0.025))
+    }
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space")
     distance: float = quantity(1.0, "m", "distance L of the cylinders", gt=0)

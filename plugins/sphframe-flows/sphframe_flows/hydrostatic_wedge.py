@@ -1,12 +1,13 @@
 """Still water above a wedge on the bed."""
 
+from collections.abc import Mapping
 from typing import ClassVar, Literal
 
 import numpy as np
 import xarray as xr
 
 from sphframe import Case, InputError
-from sphframe.cases import Derived, ExactCase, Scene, WallPart, downward_gravity, quantity, with_default
+from sphframe.cases import Benchmark, Derived, ExactCase, Scene, WallPart, downward_gravity, quantity, with_default
 from sphframe.geometry import PolygonRegion, PolygonWall
 from sphframe_flows.solutions import sample_times, variable
 
@@ -24,6 +25,14 @@ class HydrostaticWedge(ExactCase):
     """
 
     title: ClassVar[str] = "still water above a wedge"
+    benchmarks: ClassVar[Mapping[str, Benchmark]] = {
+        "hydrostatic-wedge": Benchmark(
+            "pressure",
+            "Pressure at slopes across the lattice, and at sharp corners.",
+            (0.04, 0.02),
+            {"tank_length": 1.2, "until": 1.0, "guards": {"filling": "report"}},
+        )
+    }
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space")
     gravity: float = downward_gravity()

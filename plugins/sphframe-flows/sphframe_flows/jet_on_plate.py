@@ -1,13 +1,14 @@
 """A jet that meets a plate."""
 
 import math
+from collections.abc import Mapping
 from typing import ClassVar, Literal
 
 import numpy as np
 import xarray as xr
 
 from sphframe import Array, Case, InputError
-from sphframe.cases import Derived, ExactCase, Probe, Scene, downward_gravity, quantity, with_default
+from sphframe.cases import Benchmark, Derived, ExactCase, Probe, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import PolygonRegion, PolygonWall
 from sphframe_flows.solutions import sample_times, variable
 
@@ -29,6 +30,9 @@ class JetOnPlate(ExactCase):
     """
 
     title: ClassVar[str] = "jet on a plate"
+    benchmarks: ClassVar[Mapping[str, Benchmark]] = {
+        "jet-on-plate": Benchmark("force", "Force of a steady flow that a wall turns aside.", (0.01, 0.00625))
+    }
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space")
     gravity: float = downward_gravity(0.0)

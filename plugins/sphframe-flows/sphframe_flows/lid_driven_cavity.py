@@ -1,12 +1,13 @@
 """Flow in a cavity under a lid that slides."""
 
+from collections.abc import Mapping
 from typing import ClassVar, Literal
 
 import numpy as np
 import xarray as xr
 
 from sphframe import Case
-from sphframe.cases import Derived, ExactCase, Scene, downward_gravity, quantity, with_default
+from sphframe.cases import Benchmark, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import PolygonRegion, PolygonWall
 from sphframe_flows.solutions import mean_velocity, variable
 
@@ -61,6 +62,14 @@ class LidDrivenCavity(ExactCase):
     """
 
     title: ClassVar[str] = "cavity under a sliding lid"
+    benchmarks: ClassVar[Mapping[str, Benchmark]] = {
+        "lid-driven-cavity": Benchmark(
+            "u",
+            "A closed vessel with no slip, and corners where a wall slides past another.",
+            (0.05, 0.025),
+            {"until": 10.0},
+        )
+    }
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space")
     side: float = quantity(1.0, "m", "side L of the cavity", gt=0)

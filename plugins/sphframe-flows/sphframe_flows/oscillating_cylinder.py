@@ -1,13 +1,14 @@
 """A cylinder that oscillates in a closed drum."""
 
 import math
+from collections.abc import Mapping
 from typing import ClassVar, Literal
 
 import numpy as np
 import xarray as xr
 
 from sphframe import Array, Case, InputError
-from sphframe.cases import Derived, ExactCase, Scene, downward_gravity, quantity, with_default
+from sphframe.cases import Benchmark, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import Circle, CircleWall, DifferenceRegion
 from sphframe_flows.oscillating import Oscillating
 from sphframe_flows.solutions import sample_times, variable
@@ -26,6 +27,11 @@ class OscillatingCylinder(ExactCase):
     """
 
     title: ClassVar[str] = "cylinder that oscillates in a drum"
+    benchmarks: ClassVar[Mapping[str, Benchmark]] = {
+        "oscillating-cylinder": Benchmark(
+            "added_mass_inner", "Pressure on a curved wall that accelerates.", (0.02, 0.01)
+        )
+    }
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space")
     inner_radius: float = quantity(0.1, "m", "radius r of the cylinder", gt=0)

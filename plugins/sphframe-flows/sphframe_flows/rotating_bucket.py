@@ -1,12 +1,23 @@
 """Water in a bucket that turns about its axis."""
 
+from collections.abc import Mapping
 from typing import ClassVar, Literal
 
 import numpy as np
 import xarray as xr
 
 from sphframe import Array, Case, InputError
-from sphframe.cases import Component, Derived, ExactCase, Gauge, Scene, downward_gravity, quantity, with_default
+from sphframe.cases import (
+    Benchmark,
+    Component,
+    Derived,
+    ExactCase,
+    Gauge,
+    Scene,
+    downward_gravity,
+    quantity,
+    with_default,
+)
 from sphframe.geometry import PolygonRegion, PolygonWall
 from sphframe_flows.solutions import variable
 
@@ -25,6 +36,14 @@ class RotatingBucket(ExactCase):
     """
 
     title: ClassVar[str] = "water in a rotating bucket"
+    benchmarks: ClassVar[Mapping[str, Benchmark]] = {
+        "rotating-bucket": Benchmark(
+            "surface",
+            "Still water under a force that varies in space; the error is over the particle spacing.",
+            (0.03, 0.015),
+            {"until": 1.0},
+        )
+    }
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space")
     gravity: float = downward_gravity()

@@ -1,6 +1,7 @@
 """Water in a tank that is shaken."""
 
 import math
+from collections.abc import Mapping
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -8,6 +9,7 @@ import xarray as xr
 
 from sphframe import Array, Case
 from sphframe.cases import (
+    Benchmark,
     Component,
     Derived,
     Diagnostic,
@@ -41,6 +43,9 @@ class SloshingTank(ExactCase):
     """
 
     title: ClassVar[str] = "sloshing in a shaken tank"
+    benchmarks: ClassVar[Mapping[str, Benchmark]] = {
+        "sloshing-tank": Benchmark("amplitude", "Waves in a tank that is shaken.", (0.05, 0.025))
+    }
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space")
     gravity: float = downward_gravity()

@@ -1,13 +1,24 @@
 """A standing wave between two walls."""
 
 import math
+from collections.abc import Mapping
 from typing import ClassVar, Literal
 
 import numpy as np
 import xarray as xr
 
 from sphframe import Array, Case
-from sphframe.cases import Derived, Diagnostic, ExactCase, Fields, Scene, downward_gravity, quantity, with_default
+from sphframe.cases import (
+    Benchmark,
+    Derived,
+    Diagnostic,
+    ExactCase,
+    Fields,
+    Scene,
+    downward_gravity,
+    quantity,
+    with_default,
+)
 from sphframe.geometry import PolygonRegion, PolygonWall
 from sphframe_flows.solutions import fitted_oscillation, sample_times, variable, viscous_wave
 
@@ -29,6 +40,11 @@ class StandingWave(ExactCase):
     """
 
     title: ClassVar[str] = "standing wave between walls"
+    benchmarks: ClassVar[Mapping[str, Benchmark]] = {
+        "standing-wave": Benchmark(
+            "frequency", "A free surface between vertical walls over many periods.", (0.05, 0.025)
+        )
+    }
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space")
     gravity: float = downward_gravity()

@@ -1,13 +1,14 @@
 """Viscous fluid between two plates that oscillate."""
 
 import math
+from collections.abc import Mapping
 from typing import ClassVar, Literal
 
 import numpy as np
 import xarray as xr
 
 from sphframe import Array, Case
-from sphframe.cases import Component, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
+from sphframe.cases import Benchmark, Component, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import PolygonRegion, PolygonWall
 from sphframe_flows.solutions import variable
 
@@ -27,6 +28,14 @@ class StokesPlate(ExactCase):
     """
 
     title: ClassVar[str] = "fluid between oscillating plates"
+    benchmarks: ClassVar[Mapping[str, Benchmark]] = {
+        "stokes-plate": Benchmark(
+            "velocity",
+            "Friction that changes in time, through a thin layer along the wall.",
+            (0.1, 0.05),
+            {"kinematic_viscosity": 0.2, "until": 0.8},
+        )
+    }
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space")
     gap: float = quantity(1.0, "m", "distance H of the plates", gt=0)

@@ -1,13 +1,14 @@
 """Flow between two cylinders that turn."""
 
 import math
+from collections.abc import Mapping
 from typing import ClassVar, Literal
 
 import numpy as np
 import xarray as xr
 
 from sphframe import Array, Case, InputError
-from sphframe.cases import Derived, ExactCase, Scene, downward_gravity, quantity, with_default
+from sphframe.cases import Benchmark, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import Circle, CircleWall, DifferenceRegion
 from sphframe_flows.solutions import late_mean, sample_times, variable
 from sphframe_flows.spinning import Spinning
@@ -28,6 +29,9 @@ class TaylorCouette(ExactCase):
     """
 
     title: ClassVar[str] = "flow between turning cylinders"
+    benchmarks: ClassVar[Mapping[str, Benchmark]] = {
+        "taylor-couette": Benchmark("velocity", "Friction on a convex and on a concave wall.", (0.05, 0.025))
+    }
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space")
     inner_radius: float = quantity(0.5, "m", "radius r1 of the inner cylinder", gt=0)

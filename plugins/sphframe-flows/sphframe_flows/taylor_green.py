@@ -1,6 +1,7 @@
 """Decaying vortices of Taylor and Green."""
 
 import math
+from collections.abc import Mapping
 from typing import ClassVar, Literal, final
 
 import numpy as np
@@ -8,7 +9,7 @@ import xarray as xr
 from scipy.spatial import cKDTree
 
 from sphframe import Array, Case, InputError
-from sphframe.cases import Component, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
+from sphframe.cases import Benchmark, Component, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import PolygonRegion, PolygonWall
 from sphframe_flows.solutions import sample_times, variable
 
@@ -34,6 +35,14 @@ class TaylorGreen(ExactCase):
     """
 
     title: ClassVar[str] = "Taylor-Green vortices"
+    benchmarks: ClassVar[Mapping[str, Benchmark]] = {
+        "taylor-green-box": Benchmark(
+            "last_kinetic_energy",
+            "Free slip: losses along straight walls and in corners.",
+            (0.04, 0.02),
+            {"walls": "free-slip", "until": 0.5},
+        )
+    }
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space")
     side: float = quantity(1.0, "m", "side L of the square", gt=0)

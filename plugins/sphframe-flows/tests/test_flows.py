@@ -23,6 +23,18 @@ COARSE: dict[str, tuple[dict[str, Any], dict[str, float]]] = {
     ),
     "couette": ({"particle_spacing": 0.0625, "tension": "free", "until": 5.0}, {"velocity": 0.01}),
     "cylinder-array": ({}, {"drag_factor": 0.02, "force": 0.02}),
+    "tilted-tank": ({"particle_spacing": 0.06, "until": 0.3}, {"pressure": 0.02, "weight": 0.01, "thrust": 0.01}),
+    "circular-sill": (
+        {"particle_spacing": 0.05, "until": 0.3},
+        {"pressure": 0.02, "downward_force": 0.02, "horizontal_force": 0.02},
+    ),
+    "submerged-box": ({"particle_spacing": 0.05, "until": 0.3}, {"pressure": 0.02, "buoyancy": 0.02, "moment": 0.01}),
+    "two-basins": ({"particle_spacing": 0.05, "until": 0.3}, {"pressure": 0.02, "plate_force": 0.02}),
+    "column-impact": ({"particle_spacing": 0.04}, {"plateau": 0.03, "suction": 0.02}),
+    "ceiling-release": ({"particle_spacing": 0.04}, {"fall": 1e-9, "force": 1e-9, "shape": 1e-9}),
+    "drum": ({"particle_spacing": 0.05, "slip": "no"}, {"velocity": 0.05, "angular_momentum": 0.12}),
+    "accelerated-tank": ({"particle_spacing": 0.03, "until": 0.3}, {"pressure": 0.02, "velocity": 0.01}),
+    "oblique-jet": ({"length": 0.8}, {"force": 0.05, "split": 0.03}),
     "taylor-green": ({"until": 0.5}, {"last_kinetic_energy": 0.03, "velocity": 0.05, "largest_hole": 0.2}),
 }
 """parameters of short runs, and limits of their errors"""

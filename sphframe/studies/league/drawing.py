@@ -1,0 +1,80 @@
+"""Studies: the figures of the league table."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+from sphframe.analysis.figures import new_figure
+from sphframe.studies.chapter import Picture
+from sphframe.studies.drawing import picture, tidy
+
+_PANELS = 3
+
+
+def curves(name: str, results: Mapping[str, xr.Dataset]) -> Picture | None:
+    """Draw the first variables of a benchmark with all methods, and what is exact; None if no run has them."""
+    first = next((result for result in results.values() if _variables(result)), None)
+    if first is None:
+        return None
+    variables = _variables(first)[:_PANELS]
+    from matplotlib import colormaps
+
+    colours = dict(zip(sorted(results), [*colormaps["tab20"](range(20)), *colormaps["Set2"](range(8))], strict=False))
+    figure = new_figure(4.2 * len(variables), 3.6)
+    panels = figure.subplots(1, len(variables), squeeze=False)[0]
+    for axes, key in zip(panels, variables, strict=True):
+        for method, result in results.items():
+            if f"{key} measured" not in result:
+                continue
+            x, y = result[f"{key} at"].values, result[f"{key} measured"].values
+            if result[f"{key} at"].attrs["kind"] == "time":
+                axes.plot(x, y, color=colours.get(method, "grey"), linewidth=0.8, alpha=0.8, label=method)
+            else:
+                axes.plot(x, y, ".", color=colours.get(method, "grey"), markersize=1.5, alpha=0.5, label=method)
+        exact = first[f"{key} exact"]
+        axes.plot(first[f"{key} at"], exact, color="black", linewidth=1.2, label="exact")
+        low, high = float(np.nanmin(exact)), float(np.nanmax(exact))
+        room = 0.5 * (high - low) or abs(high) or 1.0
+        axes.set_ylim(low - room, high + room)
+        tidy(axes, xlabel=_label(first[f"{key} at"]))
+        axes.set_title(_label(exact), fontsize=9, loc="left")
+    figure.legend(
+        *panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=6, fontsize=6, frameon=False
+    )
+    return picture(
+        f"{name}-curves", "All methods beside the exact solution; curves may leave the panel.", figure, raster=True
+    )
+
+
+def particles(name: str, method: str, result: xr.Dataset, spacing: float) -> Picture:
+    """Draw the particles of a run in their last frame, coloured by pressure, with the walls."""
+    from matplotlib.collections import EllipseCollection
+
+    position, pressure = result["position"].values, result["pressure"].values
+    low, high = np.nanmin(position, axis=0), np.nanmax(position, axis=0)
+    size = np.maximum(high - low, spacing)
+    figure = new_figure(4.8, float(np.clip(4.8 * size[1] / size[0], 1.6, 5.0)) + 0.6)
+    axes = figure.subplots()
+    limits = np.nanpercentile(pressure, [1.0, 99.0])
+    dots = EllipseCollection(
+        [spacing], [spacing], [0.0], units="xy", offsets=position, transOffset=axes.transData, array=pressure
+    )
+    dots.set_clim(*limits)
+    axes.add_collection(dots)
+    walls = result["walls"].values
+    axes.plot(*walls.T, color="black", linewidth=1.0)
+    margin = 0.06 * size.max()
+    axes.set(xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin), aspect="equal")
+    figure.colorbar(dots, ax=axes, shrink=0.8, extend="both", label="pressure (Pa)")
+    tidy(axes, xlabel="x (m)", ylabel="y (m)", grid=False)
+    return picture(f"{name}-particles", f"Last frame with {method}.", figure, raster=True)
+
+
+def _variables(result: xr.Dataset) -> list[str]:
+    return [str(name).removesuffix(" exact") for name in result.data_vars if str(name).endswith(" exact")]
+
+
+def _label(array: xr.DataArray) -> str:
+    unit = array.attrs["units"]
+    return f"{array.attrs['long_name']} ({unit})" if unit != "1" else str(array.attrs["long_name"])
