@@ -44,6 +44,8 @@ _ALONG = 0.75
 """distance along a thin wall, over spacing, of a ghost's wall point within which it stands for the wall"""
 _INSIDE = 1e-3
 """distance over spacing from a thin wall at which particles are put back"""
+_LEAST = 1e-12
+"""depth over spacing from which a particle is behind a plane, beyond round-off"""
 _MARGIN = 0.2
 """distance over spacing in front of a plane from which a particle may be behind a wall that is curved"""
 _FIRST_LAYER = 0.625
@@ -94,7 +96,7 @@ def _put_back_one(  # type: ignore[no-untyped-def]
     It is put at the distance ``inside`` from the wall, m.
     """
     spacing = parameters.spacing
-    least = 1e-12 * spacing
+    least = _LEAST * spacing
     touched = 0
     for ghost in ghosts:
         g = ghost - fluid_count
@@ -143,20 +145,6 @@ def _ghosts_beside(  # type: ignore[no-untyped-def]
     return kept[:count]
 
 
-@numba.njit(error_model="numpy")
-def _may_be_behind(  # type: ignore[no-untyped-def]
-    rows, i, ghosts, fluid_count, columns, foot, normal, periodic, parameters
-):
-    """Whether row ``i`` lies behind the plane of the wall of any near one of the ``ghosts`` (rows), or close to it."""
-    for ghost in ghosts:
-        g = ghost - fluid_count
-        if _stands_for_wall(rows, i, ghost, foot, g, _NEAR, columns.dim, periodic, parameters):
-            depth = _behind(rows, i, foot, normal, g, columns.dim, periodic, parameters)
-            if depth > -_MARGIN * parameters.spacing:
-                return True
-    return False
-
-
 def put_back(  # type: ignore[no-untyped-def]
     rows, fluid_count, lists, fluid_counts, ghost_counts, shares, passable, columns, parameters, foot, normal,
     wall_velocity, marked,
@@ -178,26 +166,26 @@ def put_back(  # type: ignore[no-untyped-def]
             continue
         first = c * LANES
         present = min(LANES, fluid_count - first)
-        closest = local_array(LANES)
+        deepest = local_array(LANES)
         for a in range(LANES):
-            closest[a] = math.inf
+            deepest[a] = -math.inf
         begin = fluid_counts[c]
         end = begin + ghost_counts[c]
         for k in range(begin, end):
             j = lists[c, k]
-            if squared_distance(rows, j, foot, j - fluid_count, columns.dim, PERIODIC, parameters) < first_layer:
+            g = j - fluid_count
+            if squared_distance(rows, j, foot, g, columns.dim, PERIODIC, parameters) < first_layer:
                 for a in range(present):
-                    distance2 = squared_distance(rows, j, rows, first + a, columns.dim, PERIODIC, parameters)
-                    closest[a] = min(closest[a], distance2)
+                    i = first + a
+                    if squared_distance(rows, j, rows, i, columns.dim, PERIODIC, parameters) <= near:
+                        depth = _behind(rows, i, foot, normal, g, columns.dim, PERIODIC, parameters)
+                        deepest[a] = max(deepest[a], depth)
         for a in range(present):
-            if closest[a] < near:
-                i = first + a
+            i = first + a
+            if MARKS:
+                marked[i] = deepest[a] > -_MARGIN * spacing
+            elif deepest[a] >= _LEAST * spacing:
                 ghosts = lists[c, begin:end]
-                if MARKS:
-                    marked[i] = _may_be_behind(
-                        rows, i, ghosts, fluid_count, columns, foot, normal, PERIODIC, parameters
-                    )
-                    continue
                 inside = 0.0
                 if MASKED:
                     inside = _INSIDE * spacing

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from sphframe.arrays import Array
 from sphframe.boundary.wall_arrays import wall_point
-from sphframe.compiled import local_array, nearest
+from sphframe.compiled import borrowed, local_array, nearest
 from sphframe.compiled.stand_ins import ASSIGN, COLUMNS, DENSITY, DIM, FALLBACK, PERIODIC, SUPPORT, VALUE, WEIGHTS
 from sphframe.interfaces import Interpolated
 from sphframe.interfaces.traits import DRY, OK
@@ -94,13 +94,14 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
     chunks = scratch.offsets.shape[0]
     blocks = -(-ghosts // BLOCK)
     for chunk in numba.prange(chunks):
-        offsets = scratch.offsets[chunk]
-        distances = scratch.columns[chunk, 0]
-        values = scratch.columns[chunk, 1]
-        volumes = scratch.columns[chunk, 2]
-        weights = scratch.columns[chunk, 3]
+        offsets = borrowed(scratch.offsets[chunk])
+        columns = borrowed(scratch.columns[chunk])
+        distances = columns[0]
+        values = columns[1]
+        volumes = columns[2]
+        weights = columns[3]
         members = scratch.members[chunk]
-        lift = scratch.lift[chunk]
+        lift = borrowed(scratch.lift[chunk])
         mean_offset = local_array(DIM)
         mean_velocity = local_array(DIM)
         for block in range(chunk, blocks, chunks):  # wet ghosts are consecutive: each chunk gets some

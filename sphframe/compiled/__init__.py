@@ -1,5 +1,6 @@
 """Compiled: the tools with which the loops of Numba are written."""
 
+from sphframe.compiled.borrowed import borrowed
 from sphframe.compiled.distance import nearest, offset_between, squared_distance
 from sphframe.compiled.fast_exp import fast_exp
 from sphframe.compiled.fma import fma
@@ -10,6 +11,7 @@ from sphframe.compiled.threads import default_threads, prefer_fair_threads, use_
 
 __all__ = [
     "LANES",
+    "borrowed",
     "compile_part",
     "default_threads",
     "fast_exp",
