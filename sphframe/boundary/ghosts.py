@@ -7,13 +7,16 @@ the tension policy of the case applies (p_0 is the case's ``lowest_pressure``)::
 
     bounded   p_G := max(p_G, p_0)
     free      p_G as it is
-    none      V_G := V_G S[(phi - 0.35)/0.3],    p_G := max(p_G, 0),    phi = sum_j V_j W(x_j - r) / phi_0
+    none      V_G := V_G max(S[(phi - 0.35)/0.3], S[p_G/p_1]),    p_G := max(p_G, 0),
+              phi = sum_j V_j W(x_j - r) / phi_0,    p_1 = 0.01 rho0 c0^2
 
 with the smooth step S(t) = 3 t^2 - 2 t^3 of 0 <= t <= 1. phi_0 is the value of the sum where fluid fills the domain. On
 a level free surface phi = 1/2, whatever the distance from the wall, so that no ghost acts on fluid from above the
 surface. A pair of fluid and ghost then acts only where p_i > 0 and p_i + p_G > 0: it does not attract, has no
 viscosity, and a gap that opens does not lower the density, so that the fluid may leave the wall
-(:mod:`sphframe.physics.wall_pair`).
+(:mod:`sphframe.physics.wall_pair`). Without p_1, a particle that is pressed into a corner, such as that between a
+paddle and the bed, pushes its neighbours away; the ghosts around it would then fade, nothing would balance the pressure
+of the fluid, and the particle would be compressed further.
 
 The density follows from the inverse equation of state.
 """
@@ -45,6 +48,8 @@ SEEN_ENOUGH = 0.05
 """filling of the evaluation point in the midst of the fluid below which it says nothing, far behind a wall"""
 FADED = 0.35
 """filling at the evaluation point, over that in the midst of the fluid, at which a ghost that FADES has no share"""
+PRESSED = 0.01
+"""pressure of a ghost, over rho0 c0^2, from which it does not fade: water that presses on a wall needs it"""
 
 CHUNKS = 8 * int(numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
 """number of parts of the loops over ghosts, each with scratch memory of its own"""
@@ -79,6 +84,13 @@ class Scratch(NamedTuple):
         )
 
 
+@numba.njit(inline="always")
+def _step(t):  # type: ignore[no-untyped-def]
+    """Return the smooth step S(t), 0 for t < 0 and 1 for t > 1."""
+    t = min(max(t, 0.0), 1.0)
+    return t * t * (3.0 - 2.0 * t)
+
+
 def fill_ghosts(  # type: ignore[no-untyped-def]
     rows, fluid_count, lists, counts, points, lifts, walls, parameters, scratch, statuses
 ):
@@ -90,6 +102,7 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
     support = parameters.support
     limit = support * support
     per_h = SUPPORT / support
+    pressing = PRESSED * parameters.reference_density * parameters.sound_speed**2
     ghosts = statuses.shape[0]
     chunks = scratch.offsets.shape[0]
     blocks = -(-ghosts // BLOCK)
@@ -196,8 +209,8 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                     filling = 0.0
                     for k in range(n):
                         filling += values[k] * volumes[k]
-                    part = min(max((filling / walls.full[g] - FADED) / (1.0 - 2.0 * FADED), 0.0), 1.0)
-                    share *= part * part * (3.0 - 2.0 * part)
+                    filled = _step((filling / walls.full[g] - FADED) / (1.0 - 2.0 * FADED))
+                    share *= max(filled, _step(pressure / pressing))
                 if BOUNDED:
                     pressure = max(pressure, LOWEST)
                 rows[row, COLUMNS.volume] = share * walls.volume[g]

@@ -60,6 +60,8 @@ def surface_sums(  # type: ignore[no-untyped-def]
             for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
                 j = lists[c, k]
                 edge = _edge(rows, i, j, walls, j - n, parameters, COLUMNS, EDGE_INTEGRALS, SIGMA, h, PERIODIC)
+                if edge.weight == 0.0:
+                    continue  # out of reach
                 wall = wall_side(rows, j, walls, j - n, COLUMNS)
                 ex, ey, opening = SURFACE(fluid, wall, edge, parameters)
                 solid += edge.solid

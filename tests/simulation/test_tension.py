@@ -43,3 +43,13 @@ def test_suction_in_a_closed_box(tension, kept):
         simulation.advance()
     pressure = simulation.fields().pressure
     assert bool(np.all(np.abs(pressure + 2000.0) < 20.0)) == kept
+
+
+def test_walls_bear_the_pressure_of_a_particle_in_a_corner():
+    # nothing else fills its kernel, so that its ghosts lie above the surface, but 20 kPa are not those of a surface
+    fluid = {"lower": (0.0, 0.0), "upper": (SPACING, SPACING), "pressure": 20e3}
+    simulation = box((0.4, 0.4), fluid, tension="none", gravity=0.0)
+    for _ in range(5):
+        simulation.advance()
+    assert simulation.fluid_count == 1
+    assert np.all(simulation.fields().velocity > 0.1)
