@@ -10,7 +10,7 @@ import shapely
 import xarray as xr
 
 from sphframe.analysis.fields import outline_nodes, particle_weights
-from sphframe.analysis.figures import line_style
+from sphframe.analysis.figures import line_style, plain
 from sphframe.analysis.placed import probes_at, walls_at
 from sphframe.analysis.scales import case_of, pressure_scale, time_scale, wall_method
 from sphframe.arrays import Array
@@ -232,7 +232,7 @@ def time_label(dataset: xr.Dataset, time: float) -> str:
 def run_title(dataset: xr.Dataset) -> str:
     """One line with case, method and resolution, and with the status of a run that is not complete."""
     parts = [
-        str(dataset.attrs["title"]).capitalize(),
+        plain(str(dataset.attrs["title"]).capitalize()),
         wall_method(case_of(dataset)),
         f"{dataset.sizes['particle']} particles, spacing {1e3 * dataset.attrs['particle_spacing']:g} mm",
     ]

@@ -19,6 +19,12 @@ def line_style(number: int) -> dict[str, Any]:
     return {"color": _COLOURS[number % len(_COLOURS)], "linestyle": _LINES[number // len(_COLOURS) % len(_LINES)]}
 
 
+def plain(text: str) -> str:
+    """Return a name as matplotlib shows it letter by letter: ``$`` starts no formula, and ``_`` hides no label."""
+    text = text.replace("$", r"\$")
+    return f" {text}" if text.startswith("_") else text
+
+
 def figure_class() -> type["Figure"]:
     """Return matplotlib's figure class, which opens no window.
 

@@ -93,8 +93,10 @@ def animate_run(
     pictures = film_frames(dataset, field=field, times=track(times[::every]))
     first = next(pictures)
     height, width, _ = first.shape
+    path.unlink(missing_ok=True)
+    # ffmpeg would take the beginning of a:b.mp4 for a protocol
     writer = ffmpeg.write_frames(
-        str(path), (width, height), fps=rate, pix_fmt_in="rgba", macro_block_size=2, **_CODECS[path.suffix.lower()]
+        f"file:{path}", (width, height), fps=rate, pix_fmt_in="rgba", macro_block_size=2, **_CODECS[path.suffix.lower()]
     )
     count = 0
     try:
@@ -106,6 +108,8 @@ def animate_run(
         raise OutputError(f"cannot write the film {path}: {error}") from None
     finally:
         writer.close()
+    if not path.exists():
+        raise OutputError(f"cannot write the film {path}: ffmpeg has failed, see above; choose another name")
     return count
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from sphframe.analysis.figures import line_style, tidy
+from sphframe.analysis.figures import line_style, plain, tidy
 from sphframe.analysis.scales import pressure_scale, time_scale
 from sphframe.analysis.work import work_of_bodies
 from sphframe.arrays import Array
@@ -45,7 +45,9 @@ def _draw_probes(axes: "Axes", dataset: xr.Dataset, reference: Reference) -> Non
     for mark, one in zip(itertools.cycle("ox+^"), given, strict=False):
         t, p = one[one.dims[0]].values * time_scale(dataset), one.values * pressure_scale(dataset) * 1e-3
         style: dict[str, Any] = {"markersize": 3.0, "color": "black", "zorder": 4}
-        axes.plot(t, p, mark, markerfacecolor="none", markeredgewidth=0.7, label=str(one.name or "reference"), **style)
+        axes.plot(
+            t, p, mark, markerfacecolor="none", markeredgewidth=0.7, label=plain(str(one.name or "reference")), **style
+        )
     lines = zip(map(str, series["probe"].values), series.values.T * 1e-3, strict=True)
     _draw_lines(axes, dataset, lines, "probe pressure (kPa)", from_zero=True)
 
@@ -143,7 +145,7 @@ def _draw_lines(
     t = dataset["probe_time"].values
     for k, (name, values) in enumerate(lines):
         style = {"linewidth": 1.1 if k == 0 else 0.9, "zorder": 3 - 0.1 * k, **line_style(start + k)}
-        axes.plot(t, values, label=name, **(style | (styles or {}).get(name, {})))
+        axes.plot(t, values, label=plain(name), **(style | (styles or {}).get(name, {})))
     drawn = np.concatenate([np.asarray(line.get_ydata(), dtype=np.float64) for line in axes.get_lines()])
     drawn = drawn[np.isfinite(drawn)] if np.isfinite(drawn).any() else np.zeros(1)
     low, high = float(drawn.min()), float(drawn.max())

@@ -41,7 +41,7 @@ def read_reference_series(folder: str | os.PathLike[str], name: str, column: int
         present = ", ".join(sorted(p.stem for p in folder.glob("*.csv"))) or "no .csv file"
         raise InputError(f"{folder} holds no {name}.csv; it holds {present}")
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
         header = [line.lstrip("# ").rstrip() for line in lines if line.startswith("#")]
         rows = [line for line in lines if line.strip() and not line.startswith("#")]
         if not rows:

@@ -53,7 +53,7 @@ def load_case(
     if isinstance(source, Case):
         model = type(source)
         parameters = {name: getattr(source, name) for name in source.model_fields_set}
-    elif (kind := Path(source).suffix) in (".toml", ".nc"):
+    elif (kind := Path(source).suffix.lower()) in (".toml", ".nc"):
         name, file_preset, parameters = read_toml(source) if kind == ".toml" else _read_output(Path(source))
         if kind == ".toml":
             parameters = _beside(parameters, Path(source).parent)
@@ -117,7 +117,7 @@ def read_toml(path: str | Path) -> tuple[str, str | None, dict[str, Any]]:
     """
     path = Path(path)
     try:
-        parameters = tomllib.loads(path.read_bytes().decode("utf-8"))
+        parameters = tomllib.loads(path.read_bytes().decode("utf-8-sig"))  # with or without a byte-order mark
     except (OSError, ValueError) as error:  # ValueError: of TOML and of UTF-8, and a null character in the path
         raise InputError(f"cannot read the case file {path}: {_reason(error)}") from None
     except RecursionError:

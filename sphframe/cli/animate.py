@@ -28,4 +28,4 @@ def animate_command(
         )
     playing = f"{frames_per_second:g} per second" if frames_per_second else f"{speed:g} times as fast as in reality"
     elapsed = max(time.monotonic() - began, 1e-9)
-    print(f"wrote {target}: {count} frames, {playing}, drawn at {count / elapsed:.0f} per second")
+    print(f"wrote {target}: {count} frames, {playing}, drawn at {count / elapsed:.2g} per second")

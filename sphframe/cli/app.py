@@ -34,7 +34,7 @@ sphframe {version}: a laboratory for wall boundaries in SPH free-surface flow
   sphframe plot dam-break.nc    pictures: particles, probes, energies
   sphframe animate dam-break.nc a film, .mp4 or .gif
   sphframe watch dam-break.nc   a page that shows a run while it is running
-  sphframe export dam-break.nc  for ParaView (vtkhdf, pvd), or csv
+  sphframe export dam-break.nc  for ParaView (pvd, vtkhdf), csv or zarr
   sphframe list                 what is installed: cases, interpolation methods, ...
   sphframe show dam-break       a case's parameters, units, defaults and presets
   sphframe new-plugin           start a boundary interpolation method of your own
@@ -82,7 +82,9 @@ def _run(
     assignments: Assignments = None,
     until: Annotated[str | None, typer.Option(metavar="SECONDS", help="simulated time at which to stop")] = None,
     threads: Threads = None,
-    output: Annotated[Path | None, typer.Option(metavar="FILE", help="by default CASE.nc in this folder")] = None,
+    output: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="by default CASE.nc in this folder, or CASE-METHOD.nc")
+    ] = None,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="replace files of an earlier run")] = False,
     checkpoint_every: CheckpointEvery = 60.0,
     checkpoint_interval: CheckpointInterval = None,
@@ -277,12 +279,12 @@ def _animate(
 @app.command("export")
 def _export(
     file: OutputFile,
-    to: Annotated[str, typer.Option(metavar="FORMAT", help="vtkhdf, pvd or csv")] = "vtkhdf",
+    to: Annotated[str, typer.Option(metavar="FORMAT", help="pvd, vtkhdf, csv or zarr")] = "pvd",
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="FOLDER", help="by default FILE-FORMAT")
     ] = None,
 ) -> None:
-    """Write a run for ParaView with walls and ghosts, or its sampled series as a table."""
+    """Write a run for ParaView with walls and ghosts, its sampled series as a table, or all of it as Zarr."""
     from sphframe.cli.export import export_command
 
     export_command(file, to=to, output=output)

@@ -17,6 +17,7 @@ from sphframe.cli.values import allow_imports_from_here
 from sphframe.errors import InputError, OutputError, ResumeWarning
 from sphframe.hooks import hook_manager
 from sphframe.output import CheckpointWriter, NetCDFWriter, open_dataset
+from sphframe.output.checkpoint import checkpoint_path
 from sphframe.simulation import Simulation
 
 
@@ -35,12 +36,22 @@ def run_command(
     log = console_log()
     allow_imports_from_here(overrides.values())
     case = load_case(source, preset=preset, overrides=overrides)
-    path = output or Path(f"{_stem(source)}.nc")
+    path = output or Path(f"{_stem(source)}{_changed(case, preset, overrides)}.nc")
     if path.suffix != ".nc":
         raise InputError(f"--output {path}: give it the ending .nc, since a NetCDF file is written")
+    if path.exists() and Path(source).exists() and path.samefile(source):
+        raise OutputError(
+            f"{path} is the run to repeat, and would be replaced: give another --output, such as again.nc"
+        )
     picture = picture_of(path)
-    if picture.exists() and not overwrite and find_spec("matplotlib"):
-        raise OutputError(f"{picture} exists; give --overwrite to replace it, or --output FILE to write elsewhere")
+    there = [str(one) for one in (path, checkpoint_path(path), picture) if one.exists()]
+    if there and not overwrite and (there != [str(picture)] or find_spec("matplotlib")):
+        resume = f", sphframe resume {path} to continue the run" if checkpoint_path(path).exists() else ""
+        exist = "exists" if len(there) == 1 else "exist"
+        raise OutputError(
+            f"{' and '.join(there)} {exist}: give --overwrite to replace{' all' * (len(there) > 1)}{resume}, or another"
+            " --output"
+        )
     writer = NetCDFWriter(path, overwrite=overwrite)
     checkpoints = CheckpointWriter(writer, every=checkpoint_every or None, interval=checkpoint_interval)
 
@@ -99,7 +110,18 @@ def report_run(case: Case, path: Path) -> None:
 
 def _stem(source: str) -> str:
     """The output's name, without its suffix, for a case given by name, ``module:Class`` or file."""
-    return Path(source.rpartition(":")[2]).stem
+    if Path(source).suffix.lower() in (".toml", ".nc"):
+        return Path(source).stem
+    return source.rpartition(":")[2]
+
+
+def _changed(case: Case, preset: str | None, overrides: Mapping[str, Any]) -> str:
+    """What tells runs of one case apart, for the name of the output: the preset, and the method if one was chosen."""
+    chosen = [preset] if preset else []
+    for name in ("wall_treatment", "interpolator"):
+        if name in overrides or f"{name}.name" in overrides:
+            chosen += [str(getattr(case, name).name).rpartition(":")[2]]
+    return "".join(f"-{name}" for name in chosen)
 
 
 def _described(case: Case) -> str:

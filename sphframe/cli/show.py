@@ -21,7 +21,7 @@ def show_command(name: str, preset: str | None) -> None:
     kinds = [kind for kind in KINDS if any(entry.name == name for entry in available(kind))]
     if kinds and "cases" not in kinds:
         _show_component(kinds[0], name)
-    elif Path(name).suffix in (".toml", ".nc"):
+    elif Path(name).suffix.lower() in (".toml", ".nc"):
         case = load_case(name, preset)
         _show_case(type(case), name, case)
     else:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from sphframe.analysis.figures import new_figure
+from sphframe.analysis.figures import new_figure, plain
 from sphframe.studies.chapter import Cell, Chapter, Picture, Table
 from sphframe.studies.drawing import colour, picture, thinned, tidy
 from sphframe.studies.ensemble import band_table, difference_table
@@ -62,7 +62,11 @@ def _curves(dataset: xr.Dataset) -> Picture:
     figure, methods = new_figure(5.0 * len(shown), 4.0), [str(method) for method in dataset["interpolator"].values]
     for axes, (name, label) in zip(np.atleast_1d(figure.subplots(1, len(shown))), shown, strict=True):
         if dataset.sizes["particle_spacing"] == 1:
-            axes.barh(methods, dataset[name].values[:, 0], color=[colour(method) for method in methods])
+            axes.barh(
+                [plain(method) for method in methods],
+                dataset[name].values[:, 0],
+                color=[colour(method) for method in methods],
+            )
             axes.invert_yaxis()
             tidy(axes, xlabel=label)
             continue
@@ -71,7 +75,7 @@ def _curves(dataset: xr.Dataset) -> Picture:
             order = float(one["order"])
             text = method if name != "error" or math.isnan(order) else f"{method}, order {order:.2f}"
             style: dict[str, Any] = {"color": colour(method), "marker": "o", "markersize": 4, "linewidth": 1.0}
-            axes.plot(one["particle_spacing"], one[name].where(one[name] > 0.0), label=text, **style)
+            axes.plot(one["particle_spacing"], one[name].where(one[name] > 0.0), label=plain(text), **style)
         tidy(axes, xscale="log", yscale="log", xlabel="particle spacing (m)", ylabel=label)
         axes.legend(fontsize=8, frameon=False)
     return picture("comparison", "Error and cost of each method at each resolution.", figure)
@@ -84,8 +88,10 @@ def _histories(dataset: xr.Dataset) -> Picture:
     for axes, name in zip(panels, names, strict=True):
         for method in dataset["interpolator"].values:
             one = dataset["probe_pressure"].isel(particle_spacing=-1).sel(interpolator=method, probe=name)
-            axes.plot(*thinned(one["probe_time"], one), color=colour(str(method)), linewidth=0.8, label=str(method))
-        tidy(axes, title=name, ylabel="p (Pa)")
+            axes.plot(
+                *thinned(one["probe_time"], one), color=colour(str(method)), linewidth=0.8, label=plain(str(method))
+            )
+        tidy(axes, title=plain(name), ylabel="p (Pa)")
     panels[-1].set_xlabel("t (s)")
     panels[0].legend(fontsize=8, frameon=False, ncols=3)
     return picture("comparison_probes", "Pressure at the probes, finest resolution.", figure)

@@ -14,11 +14,13 @@ import xarray as xr
 from rich.console import Console
 from typer.testing import CliRunner, Result
 
+from sphframe.analysis import plot_run
 from sphframe.cases import load_case
 from sphframe.cli.app import app
 from sphframe.cli.progress import ProgressDisplay
 from sphframe.cli.values import read_assignments
 from sphframe.errors import SimulationError
+from sphframe.output import open_dataset
 
 SMALL = ["--set", "particle_spacing=0.03", "--set", "tank_length=0.3", "--threads", "1"]
 
@@ -126,34 +128,50 @@ def test_run_writes_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert "normalized interpolation" in result.stderr
     assert "compiling" in result.stderr
     assert "100%" in result.stderr
-    for text in ("0.02 s in", "peak at P0", "particle-steps/s", "wrote hydrostatic-tank.nc"):
+    for text in ("0.02 s in", "peak at P0", "particle-steps/s", "wrote hydrostatic-tank-normalized.nc"):
         assert text in result.stdout
-    with xr.open_dataset(tmp_path / "hydrostatic-tank.nc") as dataset:
+    with xr.open_dataset(tmp_path / "hydrostatic-tank-normalized.nc") as dataset:
         assert dataset.attrs["case_name"] == "hydrostatic-tank"
-    again = call("run", "hydrostatic-tank", *SMALL, "--until", "0.02")
+    again = call("run", "hydrostatic-tank", *SMALL, "--until", "0.02", "--interpolator", "normalized")
     assert again.exit_code == 2
-    assert "--overwrite" in again.stderr
+    assert "hydrostatic-tank-normalized.nc and hydrostatic-tank-normalized.png exist: give --overwrite" in again.stderr
+    before = (tmp_path / "hydrostatic-tank-normalized.nc").read_bytes()
+    itself = call("run", "hydrostatic-tank-normalized.nc", "--overwrite")
+    assert itself.exit_code == 2
+    assert "is the run to repeat" in itself.stderr
+    assert (tmp_path / "hydrostatic-tank-normalized.nc").read_bytes() == before
 
-    repeated = call("run", "hydrostatic-tank.nc", "--until", "0.01", "--output", "second.nc", "--threads", "1")
+    repeated = call(
+        "run", "hydrostatic-tank-normalized.nc", "--until", "0.01", "--output", "second.nc", "--threads", "1"
+    )
     assert repeated.exit_code == 0, repeated.output
     case = load_case("second.nc")
     assert (case.interpolator.name, case.until, case.particle_spacing) == ("normalized", 0.01, 0.03)
 
 
-def test_a_case_file_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_case_file_runs_whatever_its_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "slope.toml").write_text(
-        """
+    (tmp_path / "file:[x]#%d.TOML").write_text(
+        """\ufeff
         particle_spacing = 0.03
         until = 0.01
         walls = [{ shape = "polygon", name = "tank", points = [[0, 0.5], [0, 0], [0.3, 0], [0.6, 0.5]] }]
         fluid = [{ shape = "polygon", points = [[0, 0], [0.3, 0], [0.48, 0.3], [0, 0.3]] }]
-        probes = [{ name = "corner", position = [0, 0] }]
-        """
+        probes = [{ name = "[/b]", position = [0, 0] }, { name = "_P [kPa] $x", position = [0, 0.1] }]
+        """,
+        encoding="utf-8",
     )
-    result = call("run", "slope.toml", "--threads", "1")
+    result = call("run", "file:[x]#%d.TOML", "--threads", "1")
     assert result.exit_code == 0, result.output
-    assert (tmp_path / "slope.nc").exists()
+    assert "peak at [/b]" in result.stdout
+    assert "peak at _P [kPa] $x" in result.stdout
+    assert (tmp_path / "file:[x]#%d.nc").exists()
+    shown = [
+        text.get_text() for text in plot_run(open_dataset("file:[x]#%d.nc")).findobj() if hasattr(text, "get_text")
+    ]
+    assert {"[/b]", r" _P [kPa] \$x"} <= set(shown)
+    assert call("animate", "file:[x]#%d.nc", "--output", "a:b.gif").exit_code == 0
+    assert (tmp_path / "a:b.gif").exists()
 
 
 def test_a_case_with_a_warning_runs(tmp_path: Path) -> None:
