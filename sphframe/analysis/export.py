@@ -163,9 +163,9 @@ def _write_hdf(dataset: xr.Dataset, part: str, path: Path, times: list[float]) -
     from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
     from vtkmodules.vtkIOHDF import vtkHDFWriter
 
-    class Frames(VTKPythonAlgorithmBase):  # type: ignore[misc]
+    class Frames(VTKPythonAlgorithmBase):
         def __init__(self) -> None:
-            super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")
+            super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")  # type: ignore[no-untyped-call]
 
         def RequestInformation(self, request: Any, before: Any, after: Any) -> int:  # noqa: N802
             information = after.GetInformationObject(0)
