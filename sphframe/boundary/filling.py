@@ -8,6 +8,7 @@ from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.conjugate import make_conjugate
 from sphframe.boundary.ghosts import Scratch, fill_ghosts
 from sphframe.boundary.images import Images, make_images
+from sphframe.boundary.trial import weights_functions
 from sphframe.compiled import specialise
 from sphframe.interfaces import (
     BoundaryInterpolator,
@@ -59,12 +60,11 @@ class Filling:
             point = interpolator.traits.evaluation_point
             bound["EXTRAPOLATED"] = point is EvaluationPoint.EXTRAPOLATED
             bound["DIRECTED"] = point is EvaluationPoint.DIRECTED
-            bound["WEIGHTS"] = interpolator.point_weights(kernel, self._dim)
-            bound["FALLBACK"] = interpolator.fallback_weights(kernel, self._dim)
+            bound["WEIGHTS"], bound["FALLBACK"] = weights_functions(interpolator, kernel, self._dim)
         if velocity_interpolator is not None:
             bound["SEPARATE"] = True
-            bound["VELOCITY_WEIGHTS"] = velocity_interpolator.point_weights(kernel, self._dim)
-            bound["VELOCITY_FALLBACK"] = velocity_interpolator.fallback_weights(kernel, self._dim)
+            functions = weights_functions(velocity_interpolator, kernel, self._dim)
+            bound["VELOCITY_WEIGHTS"], bound["VELOCITY_FALLBACK"] = functions
         self._fill = specialise(fill_ghosts, bound)
         self._make_conjugate = specialise(make_conjugate, parts) if walls.conjugate else None
         self._scratch = Scratch.of(8, self._dim)

@@ -8,6 +8,7 @@ The solver uses no matrix, but the same compiled weights and fallback.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,9 +16,10 @@ from scipy.sparse import csr_array
 from scipy.spatial import cKDTree
 
 from sphframe.arrays import Array, IntArray
+from sphframe.boundary.trial import weights_functions
 from sphframe.compiled import specialise
 from sphframe.compiled.stand_ins import DIM, FALLBACK, SUPPORT, VALUE, WEIGHTS
-from sphframe.errors import InputError
+from sphframe.errors import BrokenPluginError, InputError
 from sphframe.interfaces import BoundaryInterpolator, Kernel
 from sphframe.interfaces.traits import DRY, OK
 from sphframe.kernels import compiled_kernel
@@ -95,57 +97,86 @@ def operator(
     dim, support = points.shape[1], chosen.support * smoothing_length
     starts, members = _search(points, positions, support)
     entries, statuses = np.zeros(len(members)), np.empty(len(points), dtype=np.int64)
+    work = Workspace.of(int(np.diff(starts).max(initial=0)), dim)
     weights_loop(interpolator, chosen, dim)(
         positions, volumes, points, lifts, starts, members, support,
-        chosen.normalisation(dim) / smoothing_length**dim,
-        np.empty((len(members), dim)), np.empty(len(members)), np.empty(len(members)), np.empty(len(members)),
-        entries, statuses,
+        chosen.normalisation(dim) / smoothing_length**dim, work, entries, statuses,
     )  # fmt: skip
+    if work.touched():
+        raise BrokenPluginError(
+            f"{type(interpolator).__name__} writes before or after its array {work.touched()[0]!r}, so that its weights"
+            " cannot be trusted: it must write to out[0] .. out[n - 1] only; sphframe verify shows where"
+        )
     return csr_array((entries, members, starts), shape=(len(points), len(positions))), statuses
 
 
 def weights_loop(interpolator: BoundaryInterpolator, kernel: Kernel, dim: int) -> Callable[..., None]:
     """Return the compiled loop of :func:`operator` for one method, kernel and dimension."""
     functions = compiled_kernel(kernel, dim)
-    return specialise(
-        _fill_rows,
-        {
-            "DIM": dim,
-            "SUPPORT": kernel.support,
-            "VALUE": functions.value,
-            "WEIGHTS": interpolator.point_weights(functions, dim),
-            "FALLBACK": interpolator.fallback_weights(functions, dim),
-        },
-        parallel=False,
-    )
+    weights, fallback = weights_functions(interpolator, functions, dim)
+    parts = {"DIM": dim, "SUPPORT": kernel.support, "VALUE": functions.value}
+    return specialise(_fill_rows, {**parts, "WEIGHTS": weights, "FALLBACK": fallback}, parallel=False)
+
+
+class Workspace(NamedTuple):
+    """Memory for one neighbourhood, with :data:`MARGIN` entries before and after, which no method may touch.
+
+    ``offsets`` (MARGIN + n + MARGIN, dim); ``distances``, ``kernel_values``, ``volumes``, ``out``, all one-dimensional.
+    """
+
+    offsets: Array
+    distances: Array
+    kernel_values: Array
+    volumes: Array
+    out: Array
+
+    @classmethod
+    def of(cls, neighbours: int, dim: int) -> "Workspace":
+        """Return memory for up to so many ``neighbours``."""
+        size = neighbours + 2 * MARGIN
+        return cls(np.full((size, dim), _UNTOUCHED), *(np.full(size, _UNTOUCHED) for _ in range(4)))
+
+    def touched(self) -> list[str]:
+        """Return the names of the arrays before or after which something has been written."""
+        ends = ((name, array[:MARGIN], array[-MARGIN:]) for name, array in self._asdict().items())
+        return [name for name, *margins in ends if any(np.any(margin != _UNTOUCHED) for margin in margins)]
+
+
+MARGIN = 16
+_UNTOUCHED = 7.25
 
 
 def _fill_rows(  # type: ignore[no-untyped-def]
-    positions, volumes, points, lifts, starts, members, support, kernel_scale,
-    offsets, distances, kernel_values, neighbour_volumes, entries, statuses,
-):  # fmt: skip
+    positions, volumes, points, lifts, starts, members, support, kernel_scale, work, entries, statuses
+):
     per_h = SUPPORT / support
+    size = work.out.shape[0]
     for i in range(points.shape[0]):
-        first, end = starts[i], starts[i + 1]
-        if first == end:
+        first, n = starts[i], starts[i + 1] - starts[i]
+        if n == 0:
             statuses[i] = DRY
             continue
-        for e in range(first, end):
-            j = members[e]
+        begin = size - MARGIN - n  # so that what follows the last neighbour is the margin
+        x = work.offsets[begin : size - MARGIN]
+        r = work.distances[begin : size - MARGIN]
+        w = work.kernel_values[begin : size - MARGIN]
+        v = work.volumes[begin : size - MARGIN]
+        out = work.out[begin : size - MARGIN]
+        for e in range(n):
+            j = members[first + e]
             square = 0.0
             for k in range(DIM):
-                offsets[e, k] = positions[j, k] - points[i, k]
-                square += offsets[e, k] * offsets[e, k]
-            distances[e] = math.sqrt(square)
-            kernel_values[e] = kernel_scale * VALUE(distances[e] * per_h)
-            neighbour_volumes[e] = volumes[j]
-        x = offsets[first:end]
-        r = distances[first:end]
-        w = kernel_values[first:end]
-        v = neighbour_volumes[first:end]
-        statuses[i] = WEIGHTS(x, r, w, v, support, lifts[i], entries[first:end])
+                x[e, k] = positions[j, k] - points[i, k]
+                square += x[e, k] * x[e, k]
+            r[e] = math.sqrt(square)
+            w[e] = kernel_scale * VALUE(r[e] * per_h)
+            v[e] = volumes[j]
+            out[e] = entries[first + e]
+        statuses[i] = WEIGHTS(x, r, w, v, support, lifts[i], out)
         if statuses[i] != OK:
-            FALLBACK(x, r, w, v, support, lifts[i], entries[first:end])
+            FALLBACK(x, r, w, v, support, lifts[i], out)
+        for e in range(n):
+            entries[first + e] = out[e]
 
 
 def _search(points: Array, positions: Array, support: float) -> tuple[Integers, Integers]:

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from sphframe.cases.case import Case
 from sphframe.cases.scene import Scene
-from sphframe.errors import InputError, PluginError
+from sphframe.errors import BrokenPluginError, InputError, PluginError
 from sphframe.geometry import solid_within
 from sphframe.interfaces import BodyForce, RigidBody, Surroundings
 
@@ -15,8 +15,12 @@ def placed_scene(case: Case) -> Scene:
     Raises
     ------
     InputError: when a body contradicts the case; the message names the body.
+    BrokenPluginError: when the case returns no scene.
     """
     scene = case.scene()
+    if not isinstance(scene, Scene):
+        hint = ": end it with 'return Scene(...)'" if scene is None else ""
+        raise BrokenPluginError(f"{type(case).__name__}.scene returned {scene!r:.80}; expected a Scene{hint}")
     return replace(scene, bodies={name: _placed(case, scene, name) for name in scene.bodies})
 
 

@@ -11,6 +11,7 @@ from rich.text import Text
 
 from sphframe.cli.run import console_log
 from sphframe.cli.studies_progress import shown_progress
+from sphframe.cli.values import allow_imports_from_here
 from sphframe.errors import InputError
 from sphframe.studies import compare
 from sphframe.studies.report import shown
@@ -30,6 +31,7 @@ def compare_command(
     output: Path,
 ) -> None:
     """Compare methods over resolutions; print the table and the paths of the files that were written."""
+    allow_imports_from_here([case, *interpolators.split(","), *parameters.values()])
     with shown_progress(console_log()) as on_progress:
         comparison = compare(
             case,

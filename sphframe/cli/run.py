@@ -34,7 +34,7 @@ def run_command(
 ) -> None:
     """Run a case; print its key figures and the files written."""
     log = console_log()
-    allow_imports_from_here(overrides.values())
+    allow_imports_from_here([source, *overrides.values()])
     case = load_case(source, preset=preset, overrides=overrides)
     path = output or Path(f"{_stem(source)}{_changed(case, preset, overrides)}.nc")
     if path.suffix != ".nc":

@@ -9,12 +9,14 @@ from rich.table import Table
 from rich.text import Text
 
 from sphframe.cases import Case, load_case, parameters_of, written
+from sphframe.cli.values import allow_imports_from_here
 from sphframe.geometry import SHAPES
 from sphframe.registry import KINDS, available, load
 
 
 def show_command(name: str, preset: str | None) -> None:
     """Print the parameters of a case, the options of a component, or what a shape is made of."""
+    allow_imports_from_here([name])
     if name in SHAPES:
         _show_shape(name)
         return

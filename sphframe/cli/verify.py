@@ -16,6 +16,7 @@ from sphframe.errors import InputError
 
 if TYPE_CHECKING:
     from sphframe.testing import Report
+    from sphframe.testing.verification import Result
 
 _COLUMNS = {
     "sum is one": ("partition_of_unity",),
@@ -43,6 +44,8 @@ _MARKS = {
     "absent": ("-", "dim"),
 }
 _BROKEN = ("broken: ", "bold red")
+_SHOWN = 3
+"""number of broken properties of a component that are explained"""
 
 
 def verify_command(names: Sequence[str], *, as_json: bool, as_markdown: bool, order: bool = False) -> None:
@@ -114,12 +117,27 @@ def _print(reports: "Sequence[Report]", as_markdown: bool) -> None:
     for report in reports:
         if report.error is not None:
             console.print(Text.assemble(_BROKEN, f"{report.name}: {report.error}\n"))
-        for result in report.results:
-            if result.verdict == "broken":
-                console.print(Text.assemble(_BROKEN, f"{report.name}, {result.check}\n{result.failure}\n"))
+        for text in _failures(report):
+            console.print(Text.assemble(_BROKEN, text))
     count = sum(report.broken for report in reports)
     verdict = f"{count} of {len(reports)} violate" if count else f"all {len(reports)} have"
     console.print(f"{verdict} their declared traits")
+
+
+def _failures(report: "Report") -> list[str]:
+    """Return a text for each of the first failures, those of both dimensions together, and the names of the others."""
+    found: dict[str, list[Result]] = {}
+    for result in report.results:
+        if result.verdict == "broken":
+            found.setdefault(result.check.name, []).append(result)
+    texts = []
+    for first, *others in list(found.values())[:_SHOWN]:
+        also = f"(also in {others[0].check.dim}-D)\n" if others else ""
+        texts.append(f"{report.name}, {first.check}\n{first.failure}\n{also}")
+    rest = list(found)[_SHOWN:]
+    if rest:
+        texts.append(f"{report.name}, also {', '.join(rest)}; sphframe verify --json explains each\n")
+    return texts
 
 
 def markdown(headings: Sequence[str], rows: "Sequence[Sequence[Text]]") -> str:

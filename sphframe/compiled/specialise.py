@@ -107,7 +107,7 @@ def _rebind(template: Callable[..., Any], bound: dict[str, Any]) -> types.Functi
 def _pieces(item: Any, seen: set[int]) -> Iterator[str]:
     """Walk over everything that determines compiled code, as strings in a fixed order."""
     if isinstance(item, Dispatcher):
-        if not item.py_func.__module__.startswith("sphframe."):
+        if not (item.py_func.__module__ or "").startswith("sphframe."):
             # its own cache on disk does not notice that what it calls has changed
             item._cache = NullCache()  # type: ignore[attr-defined]
         for option in sorted(item.targetoptions):

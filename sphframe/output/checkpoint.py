@@ -24,7 +24,7 @@ from sphframe.arrays import AnyArray, Arrays
 from sphframe.errors import InputError
 from sphframe.interfaces import ResumableRun
 from sphframe.output.files import replaced_as_a_whole
-from sphframe.output.provenance import distributions, software
+from sphframe.output.provenance import code, distributions, software
 
 if TYPE_CHECKING:
     from sphframe.cases import Case
@@ -145,6 +145,7 @@ def _versions(case: "Case") -> dict[str, str]:
     """Versions of all software on which the bits of a result depend."""
     return {
         **distributions(case),
+        **code(case),
         **software(),
         "llvmlite": importlib.metadata.version("llvmlite"),
         "processor": platform.machine(),

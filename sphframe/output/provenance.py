@@ -1,9 +1,13 @@
 """Output: names and versions of the software that computed a run."""
 
+import hashlib
 import importlib.metadata
+import importlib.util
 import platform
 import sys
 from collections.abc import Iterator, Mapping
+from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sphframe import registry
@@ -20,6 +24,32 @@ def distributions(case: "Case") -> dict[str, str]:
             if entry.name == name and entry.distribution:
                 versions[entry.distribution] = entry.version
     return versions
+
+
+def code(case: "Case") -> dict[str, str]:
+    """Return a hash of the source of each plugin of ``case``, which its author may change without its version."""
+    found = {}
+    for kind, name in _chosen(case):
+        for entry in registry.available(kind):
+            if entry.name == name:
+                name = entry.value
+        package = name.partition(":")[0].partition(".")[0]
+        if package != "sphframe":
+            found[f"code of {package}"] = _hash_of(package)
+    return found
+
+
+@cache
+def _hash_of(package: str) -> str:
+    """Hash all sources of a package or module, once in a process, which does not see later changes of them."""
+    spec = importlib.util.find_spec(package) if package not in sys.modules else sys.modules[package].__spec__
+    digest = hashlib.sha256()
+    if spec is not None:
+        folders = map(Path, spec.submodule_search_locations or ())
+        files = [path for folder in folders for path in sorted(folder.rglob("*.py"))]
+        for path in files or [Path(spec.origin or "")]:
+            digest.update(path.read_bytes() if path.is_file() else b"")
+    return digest.hexdigest()[:12]
 
 
 def software() -> dict[str, str]:

@@ -89,7 +89,8 @@ def _hints(component: type) -> dict[str, Any]:
 def _described(options: Mapping[str, inspect.Parameter]) -> str:
     if not options:
         return "It takes no options"
-    listed = [f"{name} = {p.default!r}" if p.default is not p.empty else name for name, p in options.items()]
+    values = {name: getattr(p.default, "text", p.default) for name, p in options.items()}
+    listed = [f"{name} = {value!r}" if value is not inspect.Parameter.empty else name for name, value in values.items()]
     return f"Its options: {', '.join(listed)}"
 
 

@@ -93,6 +93,8 @@ class BodyStates:
         known = self.size if body.rotates_in_3d else 3
         try:
             motion = body.motion(time, self.position[k, :known], velocity[:known], load[:known])
+            if not isinstance(motion, Motion):
+                raise TypeError(f"it returned {motion!r:.80}")
             if len(motion.position) < self.size:
                 motion = Motion(*(np.append(part, np.zeros(self.size - len(part))) for part in motion))
             fault = "" if np.all(np.isfinite(motion)) or not np.all(np.isfinite(load)) else f"returned {motion}"

@@ -3,9 +3,12 @@
 from dataclasses import dataclass
 from typing import Any
 
+from sphframe.boundary.trial import try_weights
+from sphframe.boundary.wall_trial import checked_parts
 from sphframe.cases import Case
 from sphframe.cases.placement import placed_force
 from sphframe.compiled import compile_part
+from sphframe.compiled.parts import checked_function, checked_scalar
 from sphframe.errors import InputError
 from sphframe.interfaces import (
     BodyForce,
@@ -81,18 +84,26 @@ class Components:
             pressure=parts["PRESSURE"],
         )
         chosen["velocity_interpolator"] = velocity_interpolator
-        walls, force = treatment.parts(context), placed_force(case)
+        for method in (chosen["interpolator"], velocity_interpolator):
+            if method is not None:
+                try_weights(method, kernel, case.dimension, case.smoothing_length_ratio)
+        checked_function(chosen["integrator"], "step", chosen["integrator"].step, ("system", "time", "time_step"))
+        walls, force = checked_parts(treatment, context), placed_force(case)
         return cls(**chosen, compiled_kernel=kernel, walls=walls, parts=parts, body_force=force)
 
 
 def loop_parts(kernel: CompiledKernel, equation_of_state: EquationOfState, dim: int) -> dict[str, Any]:
     """Return the parts of the compiled loops that depend on the kernel, the equation of state and the dimension."""
+    pressure, density = (
+        checked_scalar(equation_of_state, maker.__name__, maker(), ("variable", "rho0", "c0"), (1e3, 1e3, 10.0))
+        for maker in (equation_of_state.pressure_function, equation_of_state.density_function)
+    )
     return {
         "DIM": dim,
         "COLUMNS": Columns.of(dim),
         "SUPPORT": kernel.support,
         "VALUE": kernel.value,
         "GRADIENT": kernel.gradient_of_square,
-        "PRESSURE": compile_part(equation_of_state.pressure_function()),
-        "DENSITY": compile_part(equation_of_state.density_function()),
+        "PRESSURE": compile_part(pressure),
+        "DENSITY": compile_part(density),
     }

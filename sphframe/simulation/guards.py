@@ -13,6 +13,7 @@ import numpy as np
 from sphframe.arrays import Array, BoolArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.operator import operator
+from sphframe.boundary.promises import first_contradiction
 from sphframe.cases import Case
 from sphframe.errors import SimulationError
 from sphframe.interfaces import BoundaryInterpolator, Kernel, Status
@@ -23,7 +24,6 @@ COLLAPSED = 0.02
 """lowest adaptive time step over that at rest; below it, at speeds above 50 c0, the time step has collapsed"""
 FASTEST_BODY = 0.5
 """highest speed of a body over the sound speed: above it, the water is no longer weakly compressible"""
-_ROUND_OFF = 1e-8
 _STEP_IS_TOO_LONG = "a time step above the stability limit (set a smaller courant_number or time_step)"
 
 
@@ -172,7 +172,7 @@ def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator | None,
     if interpolator is None:
         return
     boundary, columns, n = system.boundary, system.columns, system.fluid_count
-    traits, fluid = interpolator.traits, system.rows[: system.fluid_count]
+    fluid = system.rows[: system.fluid_count]
     points = boundary.points
     if not np.all(np.isfinite(points)) or n == 0 or not len(points):
         return
@@ -186,28 +186,15 @@ def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator | None,
         kernel=kernel,
         lift=boundary.lift_of_weights,
     )
-    sums, lowest = matrix.sum(axis=1), np.zeros(len(points))
-    rows = np.repeat(np.arange(len(points)), np.diff(matrix.indptr))
-    np.minimum.at(lowest, rows, matrix.data)
-    size = np.zeros(len(points))
-    np.add.at(size, rows, np.abs(matrix.data))
-    wet = statuses != int(Status.DRY)
-    for wrong, what in (
-        (~np.isfinite(sums), "weights that are not finite"),
-        (traits.non_negative & (lowest < -_ROUND_OFF * size), "negative weights, against its traits,"),
-        (
-            traits.partition_of_unity & wet & (np.abs(sums - 1.0) > 1e-6 * np.maximum(1.0, size)),
-            "weights that do not add up to one, against its traits,",
-        ),
-    ):
-        if np.any(wrong):
-            g = int(np.argmax(wrong))
-            raise SimulationError(
-                f"{_method(case).label} returned {what} for ghost {g}"
-                f" (lowest {lowest[g]:.4g}, sum {sums[g]:.6g}); fix the method or its traits: sphframe verify"
-                f" {_method(case).name} shows a small example",
-                place=tuple(float(x) for x in points[g]),
-            )
+    found = first_contradiction(interpolator.traits, matrix, statuses)
+    if found is not None:
+        count = int(np.diff(matrix.indptr)[found.point])
+        raise SimulationError(
+            f"{_method(case).label} returned {found.what} for ghost {found.point} with {count} neighbours"
+            f" (lowest {found.lowest:.4g}, sum {found.sum:.6g}); fix the method or its traits: sphframe verify"
+            f" {_method(case).name} makes the same check and shows a small example",
+            place=tuple(float(x) for x in points[found.point]),
+        )
 
 
 @numba.njit(parallel=True, cache=True)

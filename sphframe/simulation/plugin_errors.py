@@ -4,9 +4,8 @@ import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-import numba
-
 from sphframe.cases import Case
+from sphframe.compiled.explain import explained
 from sphframe.errors import BrokenPluginError, SimulationError, SphframeError
 from sphframe.registry import COMPONENT_KINDS, Entry, available, find
 
@@ -26,17 +25,18 @@ def naming_component(case: Case, *, running: bool) -> Iterator[None]:
     except Exception as error:
         strangers = [find(kind, getattr(case, field).name) for field, kind in COMPONENT_KINDS.items()]
         strangers = [entry for entry in strangers if entry.distribution != "sphframe"]
-        compiled = isinstance(error, numba.core.errors.NumbaError | SystemError) or _raised_in_a_loop(error)
-        if not compiled:
+        failed = explained(error)
+        if not failed and not (isinstance(error, SystemError) or _raised_in_a_loop(error)):
             strangers = [entry for entry in strangers if _passed_through(error, entry)]
         if not strangers:
             raise
-        doing = "does not compile" if isinstance(error, numba.core.errors.NumbaError) else "failed"
-        text = (
-            f"{' or '.join(entry.label for entry in strangers)} {doing}: {type(error).__name__}: {_shortened(error)}\n"
-            "to see where, run sphframe verify NAME, or run with NUMBA_DISABLE_JIT=1, which is slow but debugs as"
-            " plain Python"
-        )
+        named = [entry for entry in strangers if _module(entry) in str(error)] or strangers
+        names = " or ".join(entry.label for entry in named)
+        text = f"{names} {failed or f'failed: {type(error).__name__}: {_shortened(error)}'}"
+        if failed:
+            text += f"\nsphframe verify {named[0].name} checks each of its functions by itself"
+        else:
+            text += "\nwith NUMBA_DISABLE_JIT=1 it runs as plain Python, slowly, in which a traceback shows the line"
         raise (SimulationError(text) if running else BrokenPluginError(text)) from error
 
 
@@ -71,13 +71,15 @@ def _raised_in_a_loop(error: BaseException) -> bool:
 
 def _passed_through(error: BaseException, entry: Entry) -> bool:
     """Whether ``error`` was raised in, or by something called from, the module of ``entry``."""
-    package = entry.value.partition(":")[0].partition(".")[0]
+    package = _module(entry).partition(".")[0]
     frames = traceback.walk_tb(error.__traceback__)
     return any(str(frame.f_globals.get("__name__")).partition(".")[0] == package for frame, _ in frames)
 
 
+def _module(entry: Entry) -> str:
+    return entry.value.partition(":")[0]
+
+
 def _shortened(error: BaseException) -> str:
-    """Return the first line of a message, and the lines of a compiler's message that say what failed and where."""
-    first, *rest = [line.strip() for line in str(error).splitlines() if line.strip()] or [""]
-    telling = [line for line in rest if line.startswith(("NameError", "Unknown", "No implementation", "File"))]
-    return "; ".join([first, *telling[:3]])
+    """Return the first line of a message."""
+    return next((line.strip() for line in str(error).splitlines() if line.strip()), "")

@@ -7,6 +7,9 @@ import numpy as np
 
 from sphframe.compiled import compile_part
 from sphframe.interfaces import EquationOfState
+from sphframe.kernels import compiled_kernel
+from sphframe.registry import create
+from sphframe.simulation.components import loop_parts
 from sphframe.testing.evaluation import title
 from sphframe.testing.proof import require
 
@@ -54,6 +57,7 @@ def check_sound_speed(state: EquationOfState) -> None:
 
 def check_compiles(state: EquationOfState) -> None:
     """The compiled functions and plain Python return the same values."""
+    loop_parts(compiled_kernel(create("kernels", "gaussian"), 2), state, 2)
     pressure = state.pressure_function()
     for function, argument in (
         (pressure, 1003.0),
@@ -69,9 +73,9 @@ def check_compiles(state: EquationOfState) -> None:
 
 
 CHECKS: dict[str, Callable[[EquationOfState], None]] = {
+    "compiles": check_compiles,
     "inverse": check_inverse,
     "pressure_rises": check_pressure_rises,
     "sound_speed": check_sound_speed,
-    "compiles": check_compiles,
 }
 """the checks of an equation of state, by the name of the property"""

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from sphframe.arrays import Array
-from sphframe.boundary.operator import weights_loop
+from sphframe.boundary.operator import Workspace, weights_loop
+from sphframe.errors import BrokenPluginError
 from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint, Kernel
 from sphframe.registry import create
 from sphframe.testing.neighbourhoods import Cloud
@@ -52,20 +53,27 @@ def evaluator(
     """
     chosen = create("kernels", kernel) if isinstance(kernel, str) else kernel
     loop = weights_loop(method, chosen, dim)
-    normalisation = chosen.normalisation(dim)
 
     def run(cloud: Cloud) -> Outcome:
-        n = len(cloud)
-        out = np.full(n, garbage)
-        statuses = np.empty(1, dtype=np.int64)
-        loop(
-            cloud.offsets, cloud.volumes, np.zeros((1, dim)), cloud.lift[None, :], np.array([0, n]), np.arange(n),
-            cloud.support, normalisation / (cloud.support / chosen.support) ** dim,
-            np.empty((n, dim)), np.empty(n), np.empty(n), np.empty(n), out, statuses,
-        )  # fmt: skip
-        return Outcome(out, int(statuses[0]))
+        outcome, work = run_loop(loop, cloud, chosen, garbage)
+        if work.touched():
+            raise BrokenPluginError(f"{title(method)} writes before or after its array {work.touched()[0]!r}")
+        return outcome
 
     return run
+
+
+def run_loop(loop: Callable[..., None], cloud: Cloud, kernel: Kernel, garbage: float) -> tuple[Outcome, Workspace]:
+    """Return the result of a method's ``loop`` on one cloud, and the memory that it has used."""
+    n, dim = len(cloud), cloud.dim
+    out, work = np.full(n, garbage), Workspace.of(n, dim)
+    statuses = np.empty(1, dtype=np.int64)
+    scale = kernel.normalisation(dim) / (cloud.support / kernel.support) ** dim
+    loop(
+        cloud.offsets, cloud.volumes, np.zeros((1, dim)), cloud.lift[None, :], np.array([0, n]), np.arange(n),
+        cloud.support, scale, work, out, statuses,
+    )  # fmt: skip
+    return Outcome(out, int(statuses[0])), work
 
 
 def plain_evaluator(method: BoundaryInterpolator, dim: int, kernel: str = "gaussian") -> Evaluate:

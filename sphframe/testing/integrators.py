@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from sphframe.compiled.parts import checked_function
 from sphframe.interfaces import Integrator
 from sphframe.testing.evaluation import title
 from sphframe.testing.proof import require
@@ -81,6 +82,12 @@ def _integrate(integrator: Integrator, steps: int, time: float, forcing: float =
     return system
 
 
+def check_steps(integrator: Integrator) -> None:
+    """A step takes the system, the time and the time step."""
+    checked_function(integrator, "step", integrator.step, ("system", "time", "time_step"))
+    integrator.step(Oscillator(), 0.0, 0.1)
+
+
 def check_order(integrator: Integrator) -> None:
     """The errors of position, velocity and density of a forced acoustic mode decrease with the declared order."""
     for name, k in (("position", 0), ("velocity", 1), ("density", 2)):
@@ -138,6 +145,7 @@ def check_stability(integrator: Integrator) -> None:
 
 
 CHECKS: dict[str, Callable[[Integrator], None]] = {
+    "steps": check_steps,
     "order": check_order,
     "evaluations": check_evaluations,
     "energy": check_energy,

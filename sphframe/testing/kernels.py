@@ -10,6 +10,7 @@ from sphframe.arrays import Array
 from sphframe.compiled import compile_part
 from sphframe.interfaces import Kernel
 from sphframe.interfaces.edge_integrals import ScalarFunction, edge_quadrature
+from sphframe.kernels import compiled_kernel
 from sphframe.testing.evaluation import title
 from sphframe.testing.proof import require
 
@@ -101,6 +102,7 @@ def check_edge_integrals(kernel: Kernel) -> None:
 
 def check_compiles(kernel: Kernel) -> None:
     """The compiled functions and plain Python return the same values."""
+    compiled_kernel(kernel, 2)
     for function in (kernel.value_function(), kernel.gradient_function(), kernel.gradient_of_square_function()):
         compiled = compile_part(function)
         for q in np.linspace(0.0, 0.999, 37) * kernel.support:
@@ -123,13 +125,13 @@ def _integral(value: Callable[[float], float], power: int, upper: float) -> floa
 
 
 CHECKS: dict[str, Callable[[Kernel], None]] = {
+    "compiles": check_compiles,
     "unit_integral": check_unit_integral,
     "moments": check_moments,
     "gradient": check_gradient,
     "compact_support": check_compact_support,
     "monotone": check_monotone,
     "edge_integrals": check_edge_integrals,
-    "compiles": check_compiles,
 }
 """the checks of a kernel, by the name of the property"""
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from sphframe.interfaces import RigidBody
+from sphframe.interfaces import Motion, RigidBody
 from sphframe.testing.evaluation import title
 from sphframe.testing.proof import require
 
@@ -14,6 +14,7 @@ def check_motion(body: RigidBody) -> None:
     """The motion has three finite generalised coordinates, the same ones for the same arguments."""
     for time in (0.0, 0.3, 2.7):
         first, second = (body.motion(time, np.zeros(3), np.zeros(3), np.zeros(3)) for _ in range(2))
+        require(isinstance(first, Motion), f"{title(body)}: motion returned {first!r:.80}; expected a sphframe.Motion")
         for name, a, b in zip(first._fields, first, second, strict=True):
             require(
                 np.shape(a) == (3,) and bool(np.all(np.isfinite(a))),

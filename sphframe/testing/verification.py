@@ -27,6 +27,8 @@ KINDS = (
 )
 MEASURED_WITH = {"gaussian": 1.3, "wendland-c2": 2.0}
 """the kernels with which errors of wall treatments are measured, with h over the particle spacing"""
+FIRST = ("traits", "compiles", "steps", "motion", "force", "starts")
+"""checks without which all others would fail for the same reason"""
 Verdict = Literal["kept", "held", "broken", "absent"]
 
 
@@ -205,7 +207,7 @@ def _report(kind: str, label: str, name: str, options: dict[str, Any], progress:
         progress(f"{label}: {check.name.replace('_', ' ')}{f' in {check.dim}-D' if check.dim else ''}")
         result = Result(check, _failure(check, component))
         results.append(result)
-        if result.failure is not None and check.name in ("traits", "compiles"):
+        if result.failure is not None and check.name in FIRST:
             unusable.add(check.dim)  # all further checks would fail for the same reason
     return Report(label, kind, distribution, tuple(results), measured=_measured(component))
 
@@ -222,7 +224,7 @@ def _measured(component: Any) -> dict[str, WallResiduals]:
 def _failure(check: Check, component: Any) -> str | None:
     try:
         check(component)
-    except BrokenPromiseError as error:
+    except (BrokenPromiseError, SphframeError) as error:
         return str(error)
     except Exception as error:
         return f"{check}: {type(error).__name__}: {error}"

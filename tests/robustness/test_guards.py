@@ -175,7 +175,7 @@ BAD_METHODS: list[tuple[str, str, str, type[Exception], str]] = [
         r"'bad' of bad-method 1.0 returned negative weights, against its traits.*sphframe verify bad",
     ),
     ("no partition of unity", "", "out[0] += 0.1", SimulationError, "weights that do not add up to one"),
-    ("does not compile", "", "out[0] = 'a' + n", PluginError, "'bad' of bad-method 1.0 does not compile: TypingError"),
+    ("does not compile", "", "out[0] = 'a' + n", PluginError, "does not compile: there is no add"),
     ("uses an unknown name", "", "out[0] = alpha", PluginError, r"'bad' of bad-method 1.0 does not compile.*alpha"),
     ("returns no status", "", "return 17", SimulationError, r"status 17 from interpolator 'bad'"),
 ]

@@ -18,6 +18,7 @@ CHECKS: dict[str, CheckFunction] = {
     "compiles": compiled.check_compiles,
     "honest_status": weights.check_honest_status,
     "fewest_points": declaration.check_fewest_points,
+    "guards": weights.check_guards,
     "bounded_weights": weights.check_bounded_weights,
     "reflection_invariance": invariance.check_reflection_invariance,
     "permutation_invariance": invariance.check_permutation_invariance,

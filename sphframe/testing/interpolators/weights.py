@@ -1,9 +1,11 @@
 """Testing: the weights of an interpolation method: finite, bounded, with sum one, exact on polynomials."""
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from sphframe.arrays import IntArray
 from sphframe.boundary.operator import operator
+from sphframe.boundary.promises import first_contradiction
 from sphframe.interfaces import BoundaryInterpolator
 from sphframe.interfaces.traits import DRY, OK, Status
 from sphframe.testing.interpolators.comparison import broken, degree_of, evaluator_of, shortened, status_name, tolerance
@@ -37,6 +39,19 @@ def check_honest_status(method: BoundaryInterpolator, dim: int) -> None:
     matrix, statuses = operator(method, np.zeros(dim), far_away, 1.0, smoothing_length=1.0)
     if statuses.tolist() != [DRY] or matrix.nnz:
         raise broken(method, dim, f"a point without neighbours has the status {statuses[0]} and {matrix.nnz} weights")
+
+
+def check_guards(method: BoundaryInterpolator, dim: int) -> None:
+    """The guards of a run accept the weights: they are finite and have the declared sign and sum."""
+    run = evaluator_of(method, dim)
+
+    def wrong_with(cloud: Cloud) -> str | None:
+        outcome = run(cloud)
+        row = csr_array(outcome.weights[None, :])
+        found = first_contradiction(method.traits, row, np.array([outcome.status]))
+        return None if found is None else f"a run would stop with {found.what} (sum {found.sum:.9g})"
+
+    prove(method, dim, "the guards of runs must accept the weights", wrong_with)
 
 
 def check_bounded_weights(method: BoundaryInterpolator, dim: int) -> None:
