@@ -102,11 +102,7 @@ def operator(
         positions, volumes, points, lifts, starts, members, support,
         chosen.normalisation(dim) / smoothing_length**dim, work, entries, statuses,
     )  # fmt: skip
-    if work.touched():
-        raise BrokenPluginError(
-            f"{type(interpolator).__name__} writes before or after its array {work.touched()[0]!r}, so that its weights"
-            " cannot be trusted: it must write to out[0] .. out[n - 1] only; sphframe verify shows where"
-        )
+    work.check(interpolator)
     return csr_array((entries, members, starts), shape=(len(points), len(positions))), statuses
 
 
@@ -140,6 +136,14 @@ class Workspace(NamedTuple):
         """Return the names of the arrays before or after which something has been written."""
         ends = ((name, array[:MARGIN], array[-MARGIN:]) for name, array in self._asdict().items())
         return [name for name, *margins in ends if any(np.any(margin != _UNTOUCHED) for margin in margins)]
+
+    def check(self, interpolator: BoundaryInterpolator) -> None:
+        """Raise a BrokenPluginError if the method has written before or after an array."""
+        if self.touched():
+            raise BrokenPluginError(
+                f"{type(interpolator).__name__} writes before or after its array {self.touched()[0]!r}, so that its"
+                " weights cannot be trusted: it must write to out[0] .. out[n - 1] only; sphframe verify shows where"
+            )
 
 
 MARGIN = 16

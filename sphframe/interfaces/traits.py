@@ -77,7 +77,10 @@ class Traits:
     interpolates_particles: at the position of a particle the value is that of the particle.
     rotation_invariant: rotating the cloud leaves the weights unchanged.
     volume_independent: the weights do not depend on the particles' volumes.
-    continuous: the weights are continuous in the evaluation point while no particle enters or leaves the support.
+    kernel_independent: the weights depend on the cut-off radius, but not on the kernel.
+    continuous: the weights are continuous in the evaluation point.
+    jumps_at_cut_off: but for particles that enter or leave the support, whose weight begins with a jump.
+    dimensions: numbers of dimensions in which it works.
     evaluation_point: where the field of a ghost particle is evaluated.
     order: orders of convergence near walls, of fixed ghosts to which the method interpolates.
     """
@@ -90,6 +93,9 @@ class Traits:
     interpolates_particles: bool = False
     rotation_invariant: bool = True
     volume_independent: bool = False
+    kernel_independent: bool = False
     continuous: bool = True
+    jumps_at_cut_off: bool = False
+    dimensions: tuple[int, ...] = (2, 3)
     evaluation_point: EvaluationPoint = EvaluationPoint.MIRROR
     order: Orders = NOTHING

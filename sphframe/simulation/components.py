@@ -73,6 +73,13 @@ class Components:
             )
         velocity_interpolator = treatment.velocity_interpolator(chosen["interpolator"])
         chosen["interpolator"] = treatment.interpolator(chosen["interpolator"])
+        for method in (chosen["interpolator"], velocity_interpolator):
+            if method is not None and case.dimension not in method.traits.dimensions:
+                works = " or ".join(map(str, method.traits.dimensions))
+                raise InputError(
+                    f"interpolator {type(method).__name__} works in {works} dimensions, but the case has"
+                    f" {case.dimension}: choose another one, see `sphframe list interpolators`"
+                )
         context = WallContext(
             kernel=kernel,
             dim=case.dimension,

@@ -1,17 +1,27 @@
-"""Testing: the weights of a method on one cloud, computed by the compiled loop that :func:`operator` uses."""
+"""Testing: the weights of a method on one cloud, computed by its compiled functions."""
 
 from collections.abc import Callable
+from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from sphframe.arrays import Array
-from sphframe.boundary.operator import Workspace, weights_loop
-from sphframe.errors import BrokenPluginError
+from sphframe.boundary.operator import MARGIN, Workspace
+from sphframe.boundary.trial import weights_functions
+from sphframe.compiled import specialise
+from sphframe.compiled.stand_ins import FALLBACK, WEIGHTS
 from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint, Kernel
+from sphframe.interfaces.traits import OK
+from sphframe.kernels import compiled_kernel
 from sphframe.registry import create
 from sphframe.testing.neighbourhoods import Cloud
+
+KERNELS = ("gaussian", "wendland-c2")
+"""the kernels, of supports 3 h and 2 h, with which checks of methods are made"""
+KERNEL: ContextVar[str] = ContextVar("kernel", default=KERNELS[0])
+"""the kernel of the check in progress"""
 
 
 @dataclass(frozen=True)
@@ -50,30 +60,51 @@ def evaluator(
     """Return the function that evaluates ``method`` on clouds of ``dim`` dimensions.
 
     Each entry of ``out`` has the value ``garbage`` before the weights are computed.
+
+    Raises
+    ------
+    BrokenPluginError: by that function, when something is written before or after an array.
     """
-    chosen = create("kernels", kernel) if isinstance(kernel, str) else kernel
-    loop = weights_loop(method, chosen, dim)
+    loop = point_loop(method, dim, kernel)
 
     def run(cloud: Cloud) -> Outcome:
-        outcome, work = run_loop(loop, cloud, chosen, garbage)
-        if work.touched():
-            raise BrokenPluginError(f"{title(method)} writes before or after its array {work.touched()[0]!r}")
+        outcome, work = loop(cloud, garbage)
+        work.check(method)
         return outcome
 
     return run
 
 
-def run_loop(loop: Callable[..., None], cloud: Cloud, kernel: Kernel, garbage: float) -> tuple[Outcome, Workspace]:
-    """Return the result of a method's ``loop`` on one cloud, and the memory that it has used."""
-    n, dim = len(cloud), cloud.dim
-    out, work = np.full(n, garbage), Workspace.of(n, dim)
-    statuses = np.empty(1, dtype=np.int64)
-    scale = kernel.normalisation(dim) / (cloud.support / kernel.support) ** dim
-    loop(
-        cloud.offsets, cloud.volumes, np.zeros((1, dim)), cloud.lift[None, :], np.array([0, n]), np.arange(n),
-        cloud.support, scale, work, out, statuses,
-    )  # fmt: skip
-    return Outcome(out, int(statuses[0])), work
+def point_loop(
+    method: BoundaryInterpolator, dim: int, kernel: str | Kernel = "gaussian"
+) -> Callable[[Cloud, float], tuple[Outcome, Workspace]]:
+    """Return a function of a cloud, and of what ``out`` holds before, that gives the result and the memory used."""
+    chosen = create("kernels", kernel) if isinstance(kernel, str) else kernel
+    weights, fallback = weights_functions(method, compiled_kernel(chosen, dim), dim)
+    weigh = specialise(_weigh, {"WEIGHTS": weights, "FALLBACK": fallback}, parallel=False)
+    value, normalisation = chosen.value_function(), chosen.normalisation(dim)
+
+    def run(cloud: Cloud, garbage: float) -> tuple[Outcome, Workspace]:
+        work, inside = Workspace.of(len(cloud), dim), slice(MARGIN, MARGIN + len(cloud))
+        h = cloud.support / chosen.support
+        work.offsets[inside], work.distances[inside], work.volumes[inside] = (
+            cloud.offsets,
+            cloud.distances,
+            cloud.volumes,
+        )
+        work.kernel_values[inside] = [normalisation / h**dim * value(r / h) for r in cloud.distances.tolist()]
+        work.out[inside] = garbage
+        status = weigh(*(array[inside] for array in work[:4]), cloud.support, cloud.lift, work.out[inside])
+        return Outcome(work.out[inside].copy(), int(status)), work
+
+    return run
+
+
+def _weigh(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]
+    status = WEIGHTS(offsets, distances, kernel_values, volumes, support, lift, out)
+    if status != OK:
+        FALLBACK(offsets, distances, kernel_values, volumes, support, lift, out)
+    return status
 
 
 def plain_evaluator(method: BoundaryInterpolator, dim: int, kernel: str = "gaussian") -> Evaluate:

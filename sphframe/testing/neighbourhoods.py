@@ -196,6 +196,19 @@ def _at_particle(rng: np.random.Generator, dim: int, radius: float) -> tuple[Arr
     return _even(rng, points - points[np.argmin(np.sum(points**2, axis=1))])
 
 
+def _few_at_particle(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    points, volumes = _drops(rng, dim, radius, int(rng.integers(1, dim + 3)))
+    points[0] = 0.0
+    return points, volumes
+
+
+def _stretched(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
+    """A jittered lattice, up to twice as long along one axis as across."""
+    points = _ball(rng, dim, 1.5 * radius)
+    points[:, 0] *= rng.uniform(1.3, 2.0)
+    return _even(rng, points @ _rotation(rng, dim).T)
+
+
 def _lattice(rng: np.random.Generator, dim: int, radius: float) -> tuple[Array, Array]:
     reach = int(radius) + 2
     axes = np.meshgrid(*[np.arange(-reach, reach + 1.0)] * dim, indexing="ij")
@@ -231,6 +244,8 @@ FAMILIES: dict[str, Recipe] = {
     "coincident": _coincident,
     "nearly coincident": _nearly_coincident,
     "at a particle": _at_particle,
+    "few at a particle": _few_at_particle,
+    "stretched": _stretched,
     "lattice": _lattice,
     "at the cut-off": _at_cut_off,
     "varied volumes": _varied_volumes,
@@ -238,9 +253,9 @@ FAMILIES: dict[str, Recipe] = {
 """recipes by name, each (rng, dim, radius in spacings) -> offsets and volumes in spacings, beyond the radius too"""
 
 ALL = tuple(FAMILIES)
-REGULAR = ("full support", "one-sided", "corner", "varied volumes")
+REGULAR = ("full support", "one-sided", "corner", "stretched", "varied volumes")
 """well-conditioned for every method of the project"""
-SPARSE = (*REGULAR, "thin sheet", "spray", "at a particle")
+SPARSE = (*REGULAR, "thin sheet", "spray", "at a particle", "few at a particle")
 """also ill-conditioned ones, but without points that nearly coincide or lie at the cut-off"""
 
 
@@ -266,7 +281,9 @@ def _cut(points: Array, volumes: Array, radius: float, rng: np.random.Generator,
     if not inside.any():  # a recipe may give an empty ball, but methods are only called with neighbours
         points, volumes = 0.5 * radius * _direction(rng, points.shape[1])[None, :], np.ones(1)
         inside = np.ones(1, dtype=np.bool_)
-    lift = rng.uniform(0.0, 3.0) * _direction(rng, points.shape[1]) if lifted else None
+    lift = None
+    if lifted:  # none, or up to that from the mirror point of the deepest ghost
+        lift = 2.0 * radius * rng.uniform(0.0, 1.0) * (rng.random() < 0.8) * _direction(rng, points.shape[1])
     return Cloud(points[inside], volumes[inside], radius, lift)
 
 
@@ -274,7 +291,8 @@ def _cut(points: Array, volumes: Array, radius: float, rng: np.random.Generator,
 def catalogue(dim: int, families: tuple[str, ...] = ALL, *, lifted: bool = False) -> tuple[Cloud, ...]:
     """Return the fixed clouds with which every check begins: five of each family, and spray of 1 to 6 drops."""
     ratio = 1.3 if dim == 2 else 1.0
-    found = [build(family, dim, seed, ratio=ratio, lifted=lifted) for family in families for seed in range(5)]
+    ratios = (ratio, ratio, ratio, 2.0, 3.0) if dim == 2 else (ratio, ratio, ratio, 1.2, 1.4)
+    found = [build(family, dim, s, ratio=r, lifted=lifted) for family in families for s, r in enumerate(ratios)]
     if "spray" in families:
         for count in range(1, 7):
             for seed in range(3):

@@ -98,7 +98,7 @@ def _checks_of_method(method: BoundaryInterpolator, promised_only: bool) -> list
     if not isinstance(traits, Traits):
         return [Check("traits", interpolators.CHECKS["traits"], 2)]
     found = []
-    for dim in (2, 3):
+    for dim in traits.dimensions:
         found += [Check(name, function, dim) for name, function in interpolators.CHECKS.items()]
         found += [
             Check(name, function, dim, promised=is_promised(traits), optional=True)

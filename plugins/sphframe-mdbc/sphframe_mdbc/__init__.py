@@ -51,7 +51,11 @@ class MDBC(BoundaryInterpolator):
     """largest accepted sum |Phi_j|, the factor by which noise may be amplified"""
 
     traits = Traits(
-        reproduces_degree=1, fewest_points=(3, 4), evaluation_point=EvaluationPoint.EXTRAPOLATED, order=_ORDERS
+        reproduces_degree=1,
+        fewest_points=(3, 4),
+        jumps_at_cut_off=True,
+        evaluation_point=EvaluationPoint.EXTRAPOLATED,
+        order=_ORDERS,
     )
 
     def __post_init__(self) -> None:

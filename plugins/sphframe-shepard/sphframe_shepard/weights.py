@@ -1,12 +1,13 @@
 """Inverse-distance weights: those of Shepard (1968), and the improved ones of Huang et al. (2019)."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sphframe import OK, BoundaryInterpolator, CompiledKernel, Order, Orders, Traits, WeightsFunction, fast_exp
 
 _TRAITS = Traits(
     non_negative=True, range_restricted=True, interpolates_particles=True, volume_independent=True,
+    kernel_independent=True,
     order=Orders(
         pressure=Order(2, 0), divergence=Order(1, 1), viscosity=Order(0, 0), shear=Order(2, 2),
         slip_divergence=Order(2, 0), slip_viscosity=Order(0, -1),
@@ -27,7 +28,7 @@ class Shepard(BoundaryInterpolator):
     mu: float = 2.0
     """power of the distance, positive"""
 
-    traits = _TRAITS
+    traits = replace(_TRAITS, jumps_at_cut_off=True)
 
     def __post_init__(self) -> None:
         _check_positive("mu", self.mu)

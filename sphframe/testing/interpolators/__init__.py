@@ -6,12 +6,11 @@ explanation.
 
 from collections.abc import Callable
 
-from sphframe.interfaces import BoundaryInterpolator, Traits
+from sphframe.interfaces import Traits
 from sphframe.testing.interpolators import compiled, declaration, invariance, solver, weights
+from sphframe.testing.interpolators.comparison import CheckFunction, with_each_kernel
 
 __all__ = ["CHECKS", "CHECKS_OF_TRAITS"]
-
-CheckFunction = Callable[[BoundaryInterpolator, int], None]
 
 CHECKS: dict[str, CheckFunction] = {
     "traits": declaration.check_traits,
@@ -25,6 +24,9 @@ CHECKS: dict[str, CheckFunction] = {
     "translation_invariance": invariance.check_translation_invariance,
     "scale_invariance": invariance.check_scale_invariance,
     "unit_independence": invariance.check_unit_independence,
+    "additivity": invariance.check_additivity,
+    "locality": invariance.check_locality,
+    "kernel": invariance.check_kernel,
     "repeatable": compiled.check_repeatable,
     "plain_python_agrees": compiled.check_plain_python_agrees,
     "solver_agrees": solver.check_solver_agrees,
@@ -46,3 +48,9 @@ CHECKS_OF_TRAITS: dict[str, tuple[CheckFunction, Callable[[Traits], bool]]] = {
     "continuity": (invariance.check_continuity, lambda t: t.continuous),
 }
 """the checks of a trait, by the name of the property, each with whether given traits declare it"""
+
+_ONCE = {"traits", "kernel", "plain_python_agrees", "solver_agrees", "shear", "writes_only_out", "no_allocation"}
+_ONCE |= {"compiles", "translation_invariance"}
+"""checks that do not depend on the kernel, or compile much"""
+CHECKS |= {name: with_each_kernel(check) for name, check in CHECKS.items() if name not in _ONCE}
+CHECKS_OF_TRAITS |= {name: (with_each_kernel(check), declared) for name, (check, declared) in CHECKS_OF_TRAITS.items()}

@@ -4,12 +4,15 @@ Weights are compared within round-off times the condition number of the neighbou
 geometry does not determine the weights, only large errors are reported.
 """
 
+import functools
+from collections.abc import Callable
+
 import numpy as np
 
 from sphframe.arrays import Array
 from sphframe.interfaces import BoundaryInterpolator
 from sphframe.interfaces.traits import Status
-from sphframe.testing.evaluation import Evaluate, Outcome, evaluator, title
+from sphframe.testing.evaluation import KERNEL, KERNELS, Evaluate, Outcome, evaluator, title
 from sphframe.testing.neighbourhoods import Cloud, condition
 from sphframe.testing.proof import BrokenPromiseError
 
@@ -17,6 +20,26 @@ CLEAR = 1e-3
 """share of the cut-off radius: particles this near to it are left out, as vanishing weights magnify round-off"""
 _EPSILON = float(np.finfo(np.float64).eps)
 _COARSEST = 1e-4
+CheckFunction = Callable[[BoundaryInterpolator, int], None]
+
+
+def with_each_kernel(check: CheckFunction) -> CheckFunction:
+    """Return ``check``, made once with each kernel; its message names the second one."""
+
+    @functools.wraps(check)
+    def each(method: BoundaryInterpolator, dim: int) -> None:
+        for kernel in KERNELS:
+            token = KERNEL.set(kernel)
+            try:
+                check(method, dim)
+            except BrokenPromiseError as error:
+                if kernel == KERNELS[0]:
+                    raise
+                raise BrokenPromiseError(f"with the kernel {kernel}, {error}") from error
+            finally:
+                KERNEL.reset(token)
+
+    return each
 
 
 def tolerance(cloud: Cloud, outcome: Outcome, degree: int) -> float:
@@ -47,7 +70,7 @@ def evaluator_of(method: BoundaryInterpolator, dim: int, garbage: float = np.nan
     BrokenPromiseError: the weights function cannot be made.
     """
     try:
-        return evaluator(method, dim, garbage=garbage)
+        return evaluator(method, dim, KERNEL.get(), garbage=garbage)
     except Exception as error:
         raise BrokenPromiseError(
             f"{title(method)} in {dim}-D: the weights function cannot be made: {type(error).__name__}: {error}"

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sphframe.boundary.operator import MARGIN, weights_loop
+from sphframe.boundary.operator import MARGIN
 from sphframe.boundary.trial import try_weights
 from sphframe.compiled import compile_part
 from sphframe.compiled.explain import explained
@@ -11,7 +11,7 @@ from sphframe.interfaces import BoundaryInterpolator
 from sphframe.interfaces.traits import OK
 from sphframe.kernels import compiled_kernel
 from sphframe.registry import create
-from sphframe.testing.evaluation import extrapolates, plain_evaluator, run_loop, title
+from sphframe.testing.evaluation import extrapolates, plain_evaluator, point_loop, title
 from sphframe.testing.interpolators.comparison import (
     CLEAR,
     broken,
@@ -102,11 +102,11 @@ def check_writes_only_out(method: BoundaryInterpolator, dim: int) -> None:
     """The compiled function changes nothing but ``out``."""
     kernel = create("kernels", "gaussian")
     value = kernel.value_function()
-    loop = weights_loop(method, kernel, dim)
+    loop = point_loop(method, dim, kernel)
     for seed, family in enumerate(("full support", "thin sheet", "spray", "at a particle", "collinear") * 2):
         cloud = build(family, dim, seed, ratio=1.0, lifted=extrapolates(method))
         given = cloud.lift.copy()
-        _, work = run_loop(loop, cloud, kernel, np.nan)
+        _, work = loop(cloud, np.nan)
         scale = kernel.normalisation(dim) / (cloud.support / kernel.support) ** dim
         expected = [scale * value(float(r) * kernel.support / cloud.support) for r in cloud.distances]
         inside = slice(MARGIN, -MARGIN)
