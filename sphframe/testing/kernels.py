@@ -1,5 +1,6 @@
 """Testing: kernels, one check function per property; their values on NumPy arrays."""
 
+import itertools
 import math
 from collections.abc import Callable
 
@@ -50,6 +51,17 @@ def check_gradient(kernel: Kernel) -> None:
             abs(slope - given) < 1e-6 * largest,
             f"{title(kernel)}: at q = {q:.6g} the gradient function times q is {given:.9g}, but differences of the"
             f" value give {slope:.9g}; it must return w'(q)/q",
+        )
+    nodes, weights = np.polynomial.legendre.leggauss(6)
+    knots = np.linspace(0.0, kernel.support, 1201)
+    for low, high in itertools.pairwise(knots.tolist()):  # no band of q escapes
+        points = 0.5 * (low + high) + 0.5 * (high - low) * nodes
+        rise = 0.5 * (high - low) * float(weights @ np.array([factor(q) * q for q in points.tolist()]))
+        found = value(min(high, kernel.support * (1.0 - 1e-15))) - value(low)
+        require(
+            abs(found - rise) < 1e-7 * largest * (high - low) / kernel.support + 1e-13 * largest,
+            f"{title(kernel)}: between q = {low:.6g} and {high:.6g} the value changes by {found:.9g}, but the integral"
+            f" of the gradient function times q is {rise:.9g}; it must return w'(q)/q",
         )
     centre = factor(0.0)
     require(

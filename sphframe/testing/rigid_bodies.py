@@ -11,8 +11,18 @@ from sphframe.testing.proof import require
 
 
 def check_motion(body: RigidBody) -> None:
-    """The motion has three finite generalised coordinates, the same ones for the same arguments."""
+    """The motion has three finite generalised coordinates, the same ones for the same arguments, which it leaves alone.
+
+    At first a body is where it was drawn.
+    """
     for time in (0.0, 0.3, 2.7):
+        given = [np.full(3, 1e-3), np.full(3, 2e-3), np.full(3, 3.0)]
+        body.motion(time, *given)
+        for name, array, number in zip(("position", "velocity", "load"), given, (1e-3, 2e-3, 3.0), strict=True):
+            require(
+                bool(np.all(array == number)),
+                f"{title(body)}: motion writes to the {name} that it receives: return new arrays",
+            )
         first, second = (body.motion(time, np.zeros(3), np.zeros(3), np.zeros(3)) for _ in range(2))
         require(isinstance(first, Motion), f"{title(body)}: motion returned {first!r:.80}; expected a sphframe.Motion")
         for name, a, b in zip(first._fields, first, second, strict=True):
@@ -27,6 +37,30 @@ def check_motion(body: RigidBody) -> None:
             )
 
 
+def check_start(body: RigidBody) -> None:
+    """A prescribed body is not displaced at time 0."""
+    at_start = body.motion(0.0, np.zeros(3), np.zeros(3), np.zeros(3)).position
+    require(
+        bool(np.all(np.abs(at_start) < 1e-9)),
+        f"{title(body)}: at 0 s it is displaced by {np.asarray(at_start).tolist()}; walls are drawn where"
+        " they are at 0 s, so that the displacement must begin with zero",
+    )
+
+
+def check_damping(body: RigidBody) -> None:
+    """What the acceleration owes to the velocity takes energy from a dynamic body: a damper does not push."""
+    if not body.needs_load:
+        return
+    here, load = np.full(3, 1e-3), np.array([1e6, 0.0, 0.0])
+    rest = body.motion(0.0, here, np.zeros(3), load).acceleration
+    for velocity in np.concatenate([np.eye(3), -np.eye(3)]) * 0.1:
+        added = body.motion(0.0, here, velocity, load).acceleration - rest
+        require(
+            float(added @ velocity) <= 1e-12 * (1.0 + float(np.max(np.abs(rest)))),
+            f"{title(body)}: the velocity {velocity.tolist()} adds the acceleration {added.tolist()}, along with it",
+        )
+
+
 def check_derivatives(body: RigidBody) -> None:
     """The velocity and the acceleration of a prescribed motion are the derivatives of position and velocity."""
     given, moving = np.array([0.01, -0.02, 0.03]), np.array([0.1, 0.2, -0.1])
@@ -34,7 +68,7 @@ def check_derivatives(body: RigidBody) -> None:
     if np.array_equal(kept.position, given) or not _is_prescribed(body):
         return
     step = 1e-5
-    for time in (0.11, 0.37, 1.3, 2.9):
+    for time in (0.11, 0.37, 1.3, 2.9, *np.random.default_rng(4).uniform(3.0, 60.0, 20).tolist()):
         before, now, after = (body.motion(t, given, moving, np.zeros(3)) for t in (time - step, time, time + step))
         for name, low, high, rate in (
             ("velocity", before.position, after.position, now.velocity),
@@ -100,8 +134,10 @@ def _is_prescribed(body: RigidBody) -> bool:
 
 CHECKS: dict[str, Callable[[RigidBody], None]] = {
     "motion": check_motion,
+    "start": check_start,
     "derivatives": check_derivatives,
     "momentum": check_momentum,
+    "damping": check_damping,
     "spring_period": check_spring_period,
     "stop": check_stop,
 }

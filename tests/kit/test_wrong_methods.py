@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import hypothesis.core
+import numba
 import numpy as np
 import pytest
 
@@ -563,6 +564,136 @@ def contradiction(kernel, dim):
     return skewed(kernel, dim)
 
 
+# what depends on kernel, size and shape of the neighbourhood
+
+
+def weighted(weight, *, fewest=1, refuse=None):
+    """Weights proportional to ``weight(s, v, n)`` of the distance over R, the volume and the number of neighbours."""
+
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        n = out.shape[0]
+        total = 0.0
+        for j in range(n):
+            out[j] = weight(distances[j] / support, volumes[j], kernel_values[j], j)
+            total += out[j]
+        if not total > 0.0 or n < fewest:
+            return TOO_FEW
+        for j in range(n):
+            out[j] /= total
+        return OK
+
+    return weights
+
+
+@wrong("a Gaussian hard coded", "kernel", **AVERAGE)
+def hard_coded(kernel, dim):
+    return weighted(lambda s, v, w, j: v * (math.exp(-9.0 * s * s) - math.exp(-9.0)))
+
+
+@wrong("h = R/3", "kernel", **AVERAGE)
+def one_third(kernel, dim):
+    value = kernel.value
+    return weighted(lambda s, v, w, j: v * value(min(3.0 * s, 0.999 * kernel.support)))
+
+
+@wrong("V squared", "additivity", **AVERAGE)
+def volumes_squared(kernel, dim):
+    return weighted(lambda s, v, w, j: v * v * w)
+
+
+@wrong("the farthest particle heaviest", "locality", **AVERAGE, kernel_independent=True)
+def farthest(kernel, dim):
+    return weighted(lambda s, v, w, j: v * (0.1 + s) * (1.0 - s))
+
+
+@wrong("a weight that jumps by 30 % at R/2", "continuity", **AVERAGE)
+def jumps(kernel, dim):
+    return weighted(lambda s, v, w, j: v * w * (1.0 if s < 0.5 else 0.7))
+
+
+@wrong("a particle that enters with a weight", "continuity", **AVERAGE, kernel_independent=True)
+def enters(kernel, dim):
+    return weighted(lambda s, v, w, j: v / (s * s + 0.01))
+
+
+@wrong("neighbours beyond the 60th ignored", "permutation_invariance", **AVERAGE)
+def sixty(kernel, dim):
+    return weighted(lambda s, v, w, j: v * w if j < 60 else 0.0)
+
+
+@wrong("distances in single precision", "continuity", **AVERAGE, kernel_independent=True)
+def rounded(kernel, dim):
+    return weighted(lambda s, v, w, j: v * (1.0 - np.float32(s)) ** 3)
+
+
+@wrong(
+    "the fallback at a particle with few neighbours", "interpolates_particles", **{**SHEPARD, "fewest_points": (3, 4)}
+)
+def falls_back(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        n = out.shape[0]
+        if n < dim + 1:
+            return TOO_FEW
+        total = 0.0
+        here = 0
+        for j in range(n):
+            here += 1 if distances[j] == 0.0 else 0
+        for j in range(n):
+            out[j] = (1.0 if distances[j] == 0.0 else 0.0) if here else (1.0 - distances[j] / support) / distances[j]
+            total += out[j]
+        for j in range(n):
+            out[j] /= total
+        return OK
+
+    return weights
+
+
+@wrong("a lift of at most R", "linear_reproduction", **LINEAR, evaluation_point=EvaluationPoint.EXTRAPOLATED)
+def limited_lift(kernel, dim):
+    right = first_order(kernel, dim)
+
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        length = 0.0
+        for a in range(dim):
+            length += lift[a] ** 2
+        limited = local_array(dim)
+        for a in range(dim):
+            limited[a] = lift[a] * min(1.0, support / max(math.sqrt(length), 1e-300))
+        return right(offsets, distances, kernel_values, volumes, support, limited, out)
+
+    return weights
+
+
+@wrong("a refusal of 5 to 9 neighbours", "fewest_points", **LINEAR)
+def refuses_some(kernel, dim):
+    right = first_order(kernel, dim)
+
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        if 5 <= out.shape[0] <= 9:
+            return SINGULAR
+        return right(offsets, distances, kernel_values, volumes, support, lift, out)
+
+    return weights
+
+
+@wrong("a refusal of stretched neighbourhoods", "fewest_points", **LINEAR)
+def refuses_stretched(kernel, dim):
+    right = first_order(kernel, dim)
+
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        xx = yy = xy = 0.0
+        for j in range(out.shape[0]):
+            xx += offsets[j, 0] ** 2 * kernel_values[j]
+            yy += offsets[j, 1] ** 2 * kernel_values[j]
+            xy += offsets[j, 0] * offsets[j, 1] * kernel_values[j]
+        half, apart = 0.5 * (xx + yy), math.sqrt(0.25 * (xx - yy) ** 2 + xy * xy)
+        if half - apart < 0.6 * (half + apart):
+            return SINGULAR
+        return right(offsets, distances, kernel_values, volumes, support, lift, out)
+
+    return weights
+
+
 def check_called(case, name):
     return next(check for check in checks_of(case.method) if check.name == name)
 
@@ -571,9 +702,14 @@ def test_there_are_enough_wrong_methods():
     assert len(CASES) >= 25
 
 
+PLAIN = ("kernel", "additivity", "locality", "continuity", "interpolates_particles", "fewest_points")
+"""checks that run here in plain Python, since the compilation of each wrong method would take longer"""
+
+
 @pytest.mark.parametrize("mistake", CASES)
 def test_is_caught_with_every_seed(mistake, monkeypatch):
     case = CASES[mistake]
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", case.caught_by in PLAIN)
     check = check_called(case, case.caught_by)
     for seed in range(10):
         monkeypatch.setattr(hypothesis.core, "global_force_seed", seed)

@@ -1,6 +1,7 @@
 """Testing: the declared traits of an interpolation method, and the fewest neighbours that it needs."""
 
 import numpy as np
+from scipy.optimize import nnls
 
 from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint, Traits
 from sphframe.interfaces.traits import OK
@@ -11,6 +12,8 @@ from sphframe.testing.proof import BrokenPromiseError, prove
 
 WELL_PLACED = 2.0
 """largest sum of |weights| of a quadratic fit for which a method must return OK"""
+AROUND = 1.2
+"""the same of a linear fit, for few neighbours: the particles are on all sides of the point"""
 
 
 def check_traits(method: BoundaryInterpolator, dim: int) -> None:
@@ -83,14 +86,32 @@ def check_fewest_points(method: BoundaryInterpolator, dim: int) -> None:
 
     prove(method, dim, "the status must not be OK for fewer neighbours than fewest_points", wrong_with)
 
+    degree = method.traits.reproduces_degree
+    convex = method.traits.non_negative and degree > 0  # there are no such weights outside the hull of the particles
+
     def refused(cloud: Cloud) -> str | None:
         outcome = run(cloud)
-        well_placed = condition(cloud, 2) < 1e5 and magnification(cloud, 2) < WELL_PLACED
-        if outcome.status != OK and len(cloud) >= 3 * fewest and well_placed:
+        if outcome.status == OK or len(cloud) < fewest:
+            return None
+        quadratic = len(cloud) >= 3 * fewest and condition(cloud, 2) < 1e5 and magnification(cloud, 2) < WELL_PLACED
+        around = degree <= 1 and condition(cloud, 1) < 1e3 and magnification(cloud, 1) < AROUND
+        if (quadratic or around) and not (convex and _beside(cloud)):
             return f"the status is {status_name(outcome)} with {len(cloud)} well-placed neighbours"
         return None
 
     prove(method, dim, "the status must be OK for a well-placed neighbourhood", refused, REGULAR)
+    for count in range(fewest, 40, 1 if dim == 2 else 3):  # no needless refusals for some number of neighbours
+        for seed in range(3):
+            cloud = _general_position(dim, count, seed)
+            complaint = refused(cloud)
+            if complaint:
+                raise broken(method, dim, f"the status must be OK for a well-placed neighbourhood; {complaint}", cloud)
+
+
+def _beside(cloud: Cloud) -> bool:
+    """Whether the point is outside the hull of the particles: it is no mean of them with weights of at least zero."""
+    matrix = np.vstack([cloud.offsets.T / cloud.support, np.ones(len(cloud))])
+    return bool(nnls(matrix, np.append(np.zeros(cloud.dim), 1.0))[1] > 1e-9)
 
 
 def _general_position(dim: int, count: int, seed: int) -> Cloud:
