@@ -2,11 +2,16 @@ from sphframe.arrays import Array as Array
 from sphframe.boundary.fixed_ghosts import FixedGhosts as FixedGhosts
 from sphframe.boundary.operator import ParticleCloud as ParticleCloud
 from sphframe.cases import Case as Case
+from sphframe.cases import Custom as Custom
 from sphframe.cases import Guards as Guards
 from sphframe.cases import Parameter as Parameter
 from sphframe.cases import load_case as load_case
 from sphframe.cases import parameters_of as parameters_of
 from sphframe.cases import read_toml as read_toml
+from sphframe.cases.dam_break import DamBreak as DamBreak
+from sphframe.cases.floating_body import FloatingBody as FloatingBody
+from sphframe.cases.hydrostatic_tank import HydrostaticTank as HydrostaticTank
+from sphframe.cases.load import describe as describe
 from sphframe.compiled import fast_exp as fast_exp
 from sphframe.compiled import local_array as local_array
 from sphframe.errors import InputError as InputError
@@ -62,5 +67,6 @@ from sphframe.simulation.run import Run as Run
 from sphframe.simulation.run import resume as resume
 from sphframe.simulation.run import run as run
 from sphframe.simulation.simulation import Simulation as Simulation
+from sphframe.studies import compare as compare
 
 __version__: str

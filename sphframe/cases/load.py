@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from sphframe.cases.case import Case
+from sphframe.cases.case import Case, Parameter, parameters_of
 from sphframe.cases.checks import check_case
 from sphframe.cases.parameters import Component
 from sphframe.errors import InputError
@@ -68,6 +68,17 @@ def load_case(
     case = _with_contents(case, Path(source).parent if isinstance(source, str | Path) else Path())
     check_case(case)
     return case
+
+
+def describe(case: str | Case | type[Case]) -> list[Parameter]:
+    """Return the parameters of a case, given by name, as a class or as an object, with their values or defaults.
+
+    Examples
+    --------
+    >>> describe("dam-break")[0]
+    Parameter(name='water_height', value='0.6', unit='m', meaning='height H of the water column')
+    """
+    return parameters_of(load("cases", case) if isinstance(case, str) else case)
 
 
 def _beside(value: Any, folder: Path) -> Any:

@@ -36,7 +36,7 @@ def doctor_command() -> None:
     table.add_row("compiled code", _cache())
     console.print(table)
 
-    broken = 0
+    broken, usable = 0, set()
     for kind in KINDS:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -45,8 +45,15 @@ def doctor_command() -> None:
             if entry.error is not None:
                 broken += 1
                 console.print(Text.assemble(("broken: ", "bold red"), f"{entry.label}: {entry.error}"))
+        usable |= {kind for entry in entries if entry.error is None}
         console.print(f"{kind}: {', '.join(entry.name for entry in entries if entry.error is None) or 'none'}")
-    if broken:
+    missing = [kind for kind in ("cases", "kernels", "wall_treatments", "interpolators") if kind not in usable]
+    if missing:
+        console.print(
+            Text.assemble(("broken: ", "bold red"), f"no {' and no '.join(missing)}: nothing can run; pip install ")
+            + "sphframe-shepard, or 'sphframe[methods]'"
+        )
+    if broken or missing:
         raise typer.Exit(1)
     console.print("no problem found")
 

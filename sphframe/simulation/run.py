@@ -1,7 +1,9 @@
 """Simulation: one call from a case to its dataset, and from a checkpoint to the end of its run."""
 
+import atexit
 import json
 import os
+import shutil
 import tempfile
 import warnings
 from collections.abc import Sequence
@@ -65,7 +67,7 @@ def run(
     ----------
     case: a case, the name of one (``"dam-break"``), a TOML case file, or a NetCDF file of an earlier run to repeat.
     preset: a named set of the case's parameters, such as ``"paper"``.
-    output: NetCDF file to write; by default a temporary file that lasts as long as the operating system keeps it.
+    output: NetCDF file to write; by default a temporary file that is removed when Python ends.
     threads: threads of the compiled loops; by default all cores.
     overwrite: whether an existing ``output`` may be replaced.
     hooks: listeners to the run's events, see :mod:`sphframe.hooks`.
@@ -78,15 +80,36 @@ def run(
     InputError, PluginError: when the case or a component is not valid; nothing has been run.
     OutputError: when the output cannot be written.
     SimulationError: when the run goes wrong; what was computed until then is in the file.
-    KeyboardInterrupt: at Ctrl-C or SIGTERM, after the step and a checkpoint.
+    KeyboardInterrupt: at Ctrl-C or SIGTERM, after the step and a checkpoint. Notes of each error that ends a run name
+        the files that remain.
     """
     source = case if isinstance(case, Case) else os.fspath(case)
     ready = load_case(source, preset=preset, overrides=parameters)
-    path = Path(tempfile.mkdtemp(prefix="sphframe-")) / "run.nc" if output is None else Path(output)
+    path = _temporary_file() if output is None else Path(output)
     writer = NetCDFWriter(path, overwrite=overwrite)
     checkpoints = CheckpointWriter(writer, every=checkpoint_every, interval=checkpoint_interval)
-    Simulation(ready, threads=threads).run(hook_manager([writer, checkpoints, *hooks]))
+    simulation = Simulation(ready, threads=threads)
+    _run(simulation, writer, checkpoints, hooks)
     return Run(ready, path, open_dataset(path))
+
+
+def _temporary_file() -> Path:
+    """Return the path of an output that is removed when Python ends."""
+    folder = tempfile.mkdtemp(prefix="sphframe-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return Path(folder) / "run.nc"
+
+
+def _run(simulation: Simulation, writer: NetCDFWriter, checkpoints: CheckpointWriter, hooks: Sequence[object]) -> None:
+    """Run to the end; an error that ends the run before says in its traceback which files remain."""
+    try:
+        simulation.run(hook_manager([writer, checkpoints, *hooks]))
+    except BaseException as error:
+        if writer.run_id and writer.path.exists():
+            error.add_note(f"{writer.path} holds the run up to t = {simulation.time:.4g} s")
+        if checkpoints.path.exists():
+            error.add_note(f"sphframe.resume({str(writer.path)!r}) continues it from its last checkpoint")
+        raise
 
 
 def prepare_resume(
@@ -155,5 +178,5 @@ def resume(
     """
     simulation, writer = prepare_resume(path, case=case, trusted=trusted, threads=threads)
     checkpoints = CheckpointWriter(writer, every=checkpoint_every, interval=checkpoint_interval)
-    simulation.run(hook_manager([writer, checkpoints, *hooks]))
+    _run(simulation, writer, checkpoints, hooks)
     return Run(simulation.case, writer.path, open_dataset(writer.path))

@@ -14,6 +14,7 @@ import xarray as xr
 from rich.console import Console
 from typer.testing import CliRunner, Result
 
+from sphframe import registry
 from sphframe.analysis import plot_run
 from sphframe.cases import load_case
 from sphframe.cli.app import app
@@ -276,3 +277,38 @@ def test_progress_shows_the_present_rate_and_warnings(terminal: bool, monkeypatc
     assert "step 601, t = 0.551 of 1 s, dt = 1.00e-03 s, 50 steps/s, 0:00:09 left" in text
     for wrong in ("1 particle behind walls", "2 particles removed", "25 % of wet ghosts by fallback"):
         assert wrong in text
+
+
+def test_doctor_fails_where_nothing_can_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    from sphframe.cli import doctor
+
+    healthy = call("doctor")
+    assert healthy.exit_code == 0, healthy.output
+    monkeypatch.setattr(doctor, "check", lambda kind: [] if kind == "interpolators" else registry.check(kind))
+    found = call("doctor")
+    assert found.exit_code == 1
+    assert "no interpolators: nothing can run; pip install sphframe-shepard" in found.stdout
+
+
+def test_errors_in_python_name_the_files_that_remain_and_nothing_else_stays(tmp_path: Path) -> None:
+    program = (
+        "import sphframe\n"
+        "class Stop:\n"
+        "    @sphframe.hookimpl\n"
+        "    def sphframe_step_completed(self, simulation):\n"
+        "        if simulation.step == 2 and self.stops: raise KeyboardInterrupt\n"
+        "    stops = False\n"
+        "stop = Stop()\n"
+        "case = sphframe.HydrostaticTank(particle_spacing=0.03, tank_length=0.3, until=0.01)\n"
+        "sphframe.run(case, threads=1, hooks=[stop]).dataset.close()\n"
+        "stop.stops = True\n"
+        "sphframe.run(case, threads=1, hooks=[stop], output='kept.nc')\n"
+    )
+    environment = {**os.environ, "TMPDIR": str(tmp_path / "temporary")}
+    (tmp_path / "temporary").mkdir()
+    command = [sys.executable, "-c", program]
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+    assert "KeyboardInterrupt" in done.stderr
+    assert "kept.nc holds the run up to t = " in done.stderr
+    assert "sphframe.resume('kept.nc') continues it" in done.stderr
+    assert not [file.name for file in (tmp_path / "temporary").iterdir() if file.name.startswith("sphframe")]
