@@ -39,6 +39,7 @@ sphframe {version}: a laboratory for wall boundaries in SPH free-surface flow
   sphframe show dam-break       a case's parameters, units, defaults and presets
   sphframe new-plugin           start a boundary interpolation method of your own
   sphframe verify METHOD        test a method against its declared traits
+  sphframe evaluate FILE        judge methods on the particles of a file
   sphframe doctor               check this installation
   sphframe bench                measure its speed, memory and start-up on this machine
 
@@ -348,6 +349,46 @@ def _verify(
     from sphframe.cli.verify import verify_command
 
     verify_command(names or [], as_json=as_json, as_markdown=as_markdown, order=order)
+
+
+@app.command("evaluate")
+def _evaluate(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE", help=".nc of a run; .vtk or .vtu of other programs; .hdf5 of PySPH")
+    ],
+    methods: Annotated[
+        list[str] | None,
+        typer.Option("--method", metavar="NAME", help="interpolation method; repeatable; by default all"),
+    ] = None,
+    kernel: Annotated[str, typer.Option(metavar="NAME", help="kernel")] = "gaussian",
+    smoothing_length: Annotated[
+        float | None, typer.Option(metavar="METRES", help="h; by default that of the file, or 1.3 spacings")
+    ] = None,
+    spacing: Annotated[
+        float | None, typer.Option(metavar="METRES", help="particle spacing; by default from the file")
+    ] = None,
+    time: Annotated[float | None, typer.Option(metavar="SECONDS", help="frame of a run; by default the last")] = None,
+    array: Annotated[str | None, typer.Option(metavar="NAME", help="particle array of a file of PySPH")] = None,
+    fields: Annotated[
+        list[str] | None, typer.Option("--field", metavar="KIND=NAME", help="such as pressure=Press; repeatable")
+    ] = None,
+    sample: Annotated[int, typer.Option(min=1, metavar="N", help="number of particles that are left out")] = 2000,
+    as_json: Annotated[bool, typer.Option("--json", help="print JSON instead of a table")] = False,
+) -> None:
+    """Judge interpolation methods on the particles of a file: error, noise, weights and statuses."""
+    from sphframe.cli.evaluate import evaluate_command
+    from sphframe.cli.values import read_assignments
+    from sphframe.registry import available
+
+    evaluate_command(
+        file,
+        methods or [entry.name for entry in available("interpolators")],
+        kernel=kernel,
+        smoothing_length=smoothing_length,
+        as_json=as_json,
+        reading={"time": time, "spacing": spacing, "array": array, "fields": read_assignments(fields or [], {})},
+        sample=sample,
+    )
 
 
 @app.command("new-plugin")

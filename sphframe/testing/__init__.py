@@ -16,8 +16,10 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from sphframe.testing.evaluation import Outcome, evaluate
+    from sphframe.testing.judgement import Judgement, judge
     from sphframe.testing.neighbourhoods import FAMILIES, Cloud, catalogue
     from sphframe.testing.order import Fit, OrderReport, measure_order, verify_order
+    from sphframe.testing.particle_files import Particles, read_particles
     from sphframe.testing.proof import BrokenPromiseError
     from sphframe.testing.strategies import clouds
     from sphframe.testing.suite import Check, checks_of, parametrize_with_checks
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
 _HOMES = {
     "sphframe.testing.neighbourhoods": ["FAMILIES", "Cloud", "catalogue"],
     "sphframe.testing.evaluation": ["Outcome", "evaluate"],
+    "sphframe.testing.judgement": ["Judgement", "judge"],
+    "sphframe.testing.particle_files": ["Particles", "read_particles"],
     "sphframe.testing.order": ["Fit", "OrderReport", "measure_order", "verify_order"],
     "sphframe.testing.proof": ["BrokenPromiseError"],
     "sphframe.testing.strategies": ["clouds"],
@@ -42,17 +46,21 @@ __all__ = [
     "Check",
     "Cloud",
     "Fit",
+    "Judgement",
     "OrderReport",
     "Outcome",
+    "Particles",
     "Report",
     "WallResiduals",
     "catalogue",
     "checks_of",
     "clouds",
     "evaluate",
+    "judge",
     "measure_order",
     "parametrize_with_checks",
     "poiseuille_error",
+    "read_particles",
     "verify",
     "verify_order",
     "wall_residuals",

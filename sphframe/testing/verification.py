@@ -127,7 +127,13 @@ def choices(names: Sequence[str]) -> list[_Choice]:
     return chosen
 
 
-def _find(label: str) -> _Choice:
+def parse_label(label: str) -> tuple[str, dict[str, Any]]:
+    """Return name and options of ``NAME`` or ``NAME[option=value,...]``.
+
+    Raises
+    ------
+    InputError: when it is of another form.
+    """
     match = re.fullmatch(r"([^\[\]]+)(?:\[(.*)\])?", label)
     if not match:
         raise InputError(f"{label!r} is not of the form NAME or NAME[option=value,...]")
@@ -138,6 +144,11 @@ def _find(label: str) -> _Choice:
         if not equals:
             raise InputError(f"{item!r} in {label!r} is not of the form option=value")
         options[key.strip()] = value.strip()
+    return name, options
+
+
+def _find(label: str) -> _Choice:
+    name, options = parse_label(label)
     if ":" in name:
         return _kind_of_address(name), label, name, options
     for kind in KINDS:

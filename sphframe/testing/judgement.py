@@ -1,0 +1,99 @@
+"""Testing: a method judged on the particles of a file, each of which it interpolates from the others.
+
+A particle is left out, the method computes weights at its position from its neighbours, and the pressure
+sum_j Phi_j p_j is compared with the stored one. No walls are needed, so that particles of any program will do.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sphframe.arrays import Array, BoolArray, IntArray
+from sphframe.interfaces import BoundaryInterpolator, Kernel, Status
+from sphframe.registry import create
+from sphframe.testing.evaluation import evaluator
+from sphframe.testing.neighbourhoods import Cloud
+from sphframe.testing.particle_files import Particles
+
+FULL = 0.9
+"""filling sum_j V_j W_j, over the largest one, above which a particle is in the midst of the fluid"""
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """Results of a method for m particles that were left out.
+
+    status: (m,), see :class:`sphframe.Status`; DRY without neighbours.
+    neighbours: (m,) their number. ``total``: (m,) sum_j Phi_j.
+    gain: (m,) sum |Phi_j|, the largest factor by which errors of the values are magnified; ``noise``: (m,)
+        sqrt(sum Phi_j^2), the factor for independent errors.
+    error: (m,) interpolated less stored pressure, Pa. ``inside``: (m,) whether the particle is in the midst of the
+        fluid. ``scale``: root mean square of the stored pressures, Pa.
+    """
+
+    status: IntArray
+    neighbours: IntArray
+    total: Array
+    gain: Array
+    noise: Array
+    error: Array
+    inside: BoolArray
+    scale: float
+
+    def share(self, status: Status) -> float:
+        """Return the share of particles with ``status``."""
+        return float(np.mean(self.status == int(status)))
+
+    def distance(self, where: BoolArray | None = None) -> float:
+        """Return the root mean square of the error over that of the pressure, of the particles ``where`` true."""
+        chosen = self.error if where is None else self.error[where]
+        return float(np.sqrt(np.mean(chosen**2)) / self.scale) if len(chosen) else float("nan")
+
+
+def judge(
+    method: BoundaryInterpolator,
+    particles: Particles,
+    *,
+    kernel: str | Kernel = "gaussian",
+    smoothing_length: float | None = None,
+    sample: int = 2000,
+) -> Judgement:
+    """Judge ``method`` on up to ``sample`` of the ``particles``, evenly chosen.
+
+    ``smoothing_length`` h, m, is that of the file by default, or 1.3 spacings.
+    """
+    from scipy.spatial import cKDTree
+
+    chosen = create("kernels", kernel) if isinstance(kernel, str) else kernel
+    h = smoothing_length or particles.smoothing_length or 1.3 * particles.spacing
+    dim, support = particles.position.shape[1], chosen.support * h
+    run, value = evaluator(method, dim, chosen), chosen.value_function()
+    tree, count = cKDTree(particles.position), len(particles.position)
+    numbers = np.unique(np.linspace(0, count - 1, min(sample, count)).astype(int))
+    rows = []
+    for number in numbers:
+        near = np.array([j for j in tree.query_ball_point(particles.position[number], support) if j != number], int)
+        offsets = particles.position[near] - particles.position[number]
+        inside = np.linalg.norm(offsets, axis=1) < support if len(near) else np.zeros(0, bool)
+        near, offsets = near[inside], offsets[inside]
+        if not len(near):
+            rows.append((int(Status.DRY), 0, 0.0, 0.0, 0.0, -particles.pressure[number], 0.0))
+            continue
+        cloud = Cloud(offsets, particles.volume[near], support)
+        outcome = run(cloud)
+        phi = outcome.weights
+        full = float(np.dot([value(r / h) for r in cloud.distances.tolist()], cloud.volumes))
+        missed = float(phi @ particles.pressure[near]) - particles.pressure[number]
+        sizes = float(np.abs(phi).sum()), float(np.sqrt(np.sum(phi**2)))
+        rows.append((outcome.status, len(near), float(phi.sum()), *sizes, missed, full))
+    status, near_by, total, gain, noise, error, filling = np.array(rows).T
+    return Judgement(
+        status.astype(int),
+        near_by.astype(int),
+        total,
+        gain,
+        noise,
+        error,
+        filling > FULL * np.quantile(filling, 0.95),
+        float(np.sqrt(np.mean(particles.pressure**2))) or 1.0,
+    )
