@@ -344,11 +344,12 @@ def _verify(
     as_json: Annotated[bool, typer.Option("--json", help="print JSON instead of tables")] = False,
     as_markdown: Annotated[bool, typer.Option("--markdown", help="print tables in Markdown")] = False,
     order: Annotated[bool, typer.Option("--order", help="measure orders of convergence near walls instead")] = False,
+    junit: Annotated[Path | None, typer.Option(metavar="FILE", help="also write JUnit XML")] = None,
 ) -> None:
     """Test interpolation methods, wall treatments and other components against their declared traits."""
     from sphframe.cli.verify import verify_command
 
-    verify_command(names or [], as_json=as_json, as_markdown=as_markdown, order=order)
+    verify_command(names or [], as_json=as_json, as_markdown=as_markdown, order=order, junit=junit)
 
 
 @app.command("evaluate")

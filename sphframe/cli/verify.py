@@ -4,6 +4,7 @@ import json
 import sys
 from collections.abc import Mapping, Sequence
 from importlib.util import find_spec
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
@@ -42,18 +43,28 @@ _MARKS = {
     "held": ("(yes)", "yellow"),
     "broken": ("BROKEN", "bold red"),
     "absent": ("-", "dim"),
+    "expected": ("expected", "yellow"),
 }
 _BROKEN = ("broken: ", "bold red")
 _SHOWN = 3
 """number of broken properties of a component that are explained"""
 
 
-def verify_command(names: Sequence[str], *, as_json: bool, as_markdown: bool, order: bool = False) -> None:
+def verify_command(
+    names: Sequence[str], *, as_json: bool, as_markdown: bool, order: bool = False, junit: Path | None = None
+) -> None:
     """Verify components; exit with 1 when one violates its declared traits."""
-    raise typer.Exit(verify(names, as_json=as_json, as_markdown=as_markdown, order=order))
+    raise typer.Exit(verify(names, as_json=as_json, as_markdown=as_markdown, order=order, junit=junit))
 
 
-def verify(names: Sequence[str] = (), *, as_json: bool = False, as_markdown: bool = False, order: bool = False) -> int:
+def verify(
+    names: Sequence[str] = (),
+    *,
+    as_json: bool = False,
+    as_markdown: bool = False,
+    order: bool = False,
+    junit: Path | None = None,
+) -> int:
     """Check components against their declared traits, and print a table and every failure.
 
     Parameters
@@ -61,6 +72,7 @@ def verify(names: Sequence[str] = (), *, as_json: bool = False, as_markdown: boo
     names: as for :func:`sphframe.testing.verify`; all interpolation methods and wall treatments by default.
     as_json, as_markdown: print JSON, or tables in Markdown, in place of tables of text.
     order: measure orders of convergence near walls instead, see :func:`sphframe.testing.measure_order`.
+    junit: where the results are also written as JUnit XML.
 
     Returns
     -------
@@ -81,18 +93,20 @@ def verify(names: Sequence[str] = (), *, as_json: bool = False, as_markdown: boo
         return verify_order(names, as_json=as_json, as_markdown=as_markdown)
     from sphframe.testing import verify as reports_of
 
-    if as_json:
-        reports = list(reports_of(names))
-        print(json.dumps([report.as_data() for report in reports], indent=2))
-        return int(any(report.broken for report in reports))
-
     console = Console(markup=False, highlight=False)
-    if console.is_terminal:
+    if console.is_terminal and not as_json:
         with console.status("verifying") as status:
             reports = list(reports_of(names, progress=lambda text: status.update(f"verifying {text}")))
     else:
         reports = list(reports_of(names))
-    _print(reports, as_markdown)
+    if junit is not None:
+        from sphframe.testing.junit import write_junit
+
+        write_junit(reports, junit)
+    if as_json:
+        print(json.dumps([report.as_data() for report in reports], indent=2))
+    else:
+        _print(reports, as_markdown)
     return int(any(report.broken for report in reports))
 
 
@@ -133,7 +147,8 @@ def _failures(report: "Report") -> list[str]:
     texts = []
     for first, *others in list(found.values())[:_SHOWN]:
         also = f"(also in {others[0].check.dim}-D)\n" if others else ""
-        texts.append(f"{report.name}, {first.check}\n{first.failure}\n{also}")
+        why = first.failure or f"it was expected to fail ({first.expected}), but holds"
+        texts.append(f"{report.name}, {first.check}\n{why}\n{also}")
     rest = list(found)[_SHOWN:]
     if rest:
         texts.append(f"{report.name}, also {', '.join(rest)}; sphframe verify --json explains each\n")
@@ -179,7 +194,7 @@ def _line(report: "Report") -> str:
 
 
 def _cell(verdicts: Sequence[str]) -> Text:
-    for verdict in ("broken", "absent", "kept", "held"):
+    for verdict in ("broken", "expected", "absent", "kept", "held"):
         if verdict in verdicts:
             return Text(*_MARKS[verdict])
     return Text("")

@@ -1,6 +1,6 @@
 """Testing: the checks of a component, and the pytest decorator that runs them."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -123,15 +123,21 @@ def _checks_of_treatment(treatment: WallTreatment, promised_only: bool) -> list[
 
 
 def parametrize_with_checks(
-    components: Sequence[Any] | Iterable[Any], *, expected_failures: dict[str, str] | None = None
+    components: Sequence[Any] | Iterable[Any],
+    *,
+    expected_failed_checks: Mapping[str, str] | Callable[[Any], Mapping[str, str]] | None = None,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Parametrise a pytest function of two arguments, component and check, with all checks of each component.
 
     Parameters
     ----------
     components: instances to be checked; the test ids show them as code.
-    expected_failures: names of checks (``"continuity"``, or ``"continuity-3d"`` for one dimension), each with the
-        reason why it fails; a check that then succeeds is an error.
+    expected_failed_checks: names of checks (``"continuity"``, or ``"continuity-3d"`` for one dimension), each with the
+        reason why it fails, or a function that returns them for a component; a check that then succeeds is an error.
+
+    Raises
+    ------
+    ValueError: when no component has a check of that name.
 
     Examples
     --------
@@ -143,13 +149,21 @@ def parametrize_with_checks(
     """
     import pytest
 
-    reasons = expected_failures or {}
     cases = []
+    known: set[str] = set()
+    given: dict[str, str] = {}
     for component in components:
+        reasons = expected_failed_checks or {}
+        reasons = reasons(component) if callable(reasons) else reasons
+        given |= reasons
+        known |= {name for check in checks_of(component) for name in (check.name, str(check))}
         for check in checks_of(component):
             reason = reasons.get(str(check), reasons.get(check.name))
             marks = [] if reason is None else [pytest.mark.xfail(reason=reason, strict=True)]
             cases.append(pytest.param(component, check, id=f"{title(component)}-{check}", marks=marks))
+
+    if set(given) - known:
+        raise ValueError(f"no component has the checks {', '.join(sorted(set(given) - known))}")
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
         names = function.__code__.co_varnames[: function.__code__.co_argcount]

@@ -29,7 +29,7 @@ MEASURED_WITH = {"gaussian": 1.3, "wendland-c2": 2.0}
 """the kernels with which errors of wall treatments are measured, with h over the particle spacing"""
 FIRST = ("traits", "compiles", "steps", "motion", "force", "starts")
 """checks without which all others would fail for the same reason"""
-Verdict = Literal["kept", "held", "broken", "absent"]
+Verdict = Literal["kept", "held", "broken", "absent", "expected"]
 
 
 @dataclass(frozen=True)
@@ -39,10 +39,17 @@ class Result:
     check: Check
     failure: str | None
     """why the component lacks the property; None where it has the property"""
+    expected: str | None = None
+    """why the check is expected to fail; it is then ``broken`` where it succeeds"""
 
     @property
     def verdict(self) -> Verdict:
-        """``kept`` or ``broken`` for a declared property, ``held`` or ``absent`` for one that is not declared."""
+        """``kept`` or ``broken`` for a declared property, ``held`` or ``absent`` for one that is not declared.
+
+        ``expected`` for a failure that was expected.
+        """
+        if self.expected is not None:
+            return "broken" if self.failure is None else "expected"
         if self.check.promised:
             return "kept" if self.failure is None else "broken"
         return "held" if self.failure is None else "absent"
@@ -67,7 +74,7 @@ class Report:
 
     def verdicts(self) -> dict[str, Verdict]:
         """Return the worst verdict over all dimensions for each property."""
-        worst = ("held", "kept", "absent", "broken")
+        worst = ("held", "kept", "absent", "expected", "broken")
         found: dict[str, Verdict] = {}
         for result in self.results:
             name = result.check.name
@@ -91,13 +98,20 @@ class Report:
                     "promised": result.check.promised,
                     "verdict": result.verdict,
                     "failure": result.failure,
+                    "expected": result.expected,
                 }
                 for result in self.results
             ],
         }
 
 
-def verify(names: Sequence[str] = (), *, progress: Callable[[str], None] | None = None) -> Iterator[Report]:
+def verify(
+    names: Sequence[str] = (),
+    *,
+    progress: Callable[[str], None] | None = None,
+    callback: Callable[[str, Result], None] | None = None,
+    expected_failed_checks: Mapping[str, str] | None = None,
+) -> Iterator[Report]:
     """Run all checks of the components with ``names`` and yield one report per component.
 
     Parameters
@@ -107,13 +121,24 @@ def verify(names: Sequence[str] = (), *, progress: Callable[[str], None] | None 
         a kind, such as ``wall_treatments``, for all that are installed, once for each value of an option that has a
         list of values. Without names: all interpolation methods and wall treatments.
     progress: called with a line of text before each component and check.
+    callback: called with the label of the component and the result after each check.
+    expected_failed_checks: checks that are expected to fail, such as ``"continuity-3d"`` or ``"continuity"``, each with
+        the reason; one that succeeds is reported as broken.
 
     Raises
     ------
     UnknownComponentError: when nothing has one of the names.
     """
+    expected = expected_failed_checks or {}
+
+    def finished(label: str, check: Check, failure: str | None) -> Result:
+        result = Result(check, failure, expected.get(str(check), expected.get(check.name)))
+        if callback is not None:
+            callback(label, result)
+        return result
+
     for kind, label, name, options in choices(names):
-        yield _report(kind, label, name, options, progress or (lambda text: None))
+        yield _report(kind, label, name, options, progress or (lambda text: None), finished)
 
 
 _Choice = tuple[str, str, str, dict[str, Any]]
@@ -201,7 +226,14 @@ def _variants(component: Any) -> Iterator[dict[str, Any]]:
         yield {name: value for name, value in chosen if value != choices[name][0]}
 
 
-def _report(kind: str, label: str, name: str, options: dict[str, Any], progress: Callable[[str], None]) -> Report:
+def _report(
+    kind: str,
+    label: str,
+    name: str,
+    options: dict[str, Any],
+    progress: Callable[[str], None],
+    finished: Callable[[str, Check, str | None], Result],
+) -> Report:
     entry = find(kind, name)
     distribution = " ".join(filter(None, (entry.distribution, entry.version)))
     progress(label)
@@ -216,7 +248,7 @@ def _report(kind: str, label: str, name: str, options: dict[str, Any], progress:
         if check.dim in unusable:
             continue
         progress(f"{label}: {check.name.replace('_', ' ')}{f' in {check.dim}-D' if check.dim else ''}")
-        result = Result(check, _failure(check, component))
+        result = finished(label, check, _failure(check, component))
         results.append(result)
         if result.failure is not None and check.name in FIRST:
             unusable.add(check.dim)  # all further checks would fail for the same reason

@@ -1,6 +1,7 @@
 """``sphframe verify``: what is verified by default, and its tables, with results that are given."""
 
 import json
+from xml.etree import ElementTree
 
 import pytest
 
@@ -8,6 +9,7 @@ from sphframe import InputError
 from sphframe.cli.verify import TREATMENT_HEADINGS, markdown, treatment_rows
 from sphframe.cli.verify import verify as print_verification
 from sphframe.testing import Check, Report, WallResiduals, verification
+from sphframe.testing.junit import write_junit
 
 FOUND = Report(
     "ghosts",
@@ -84,6 +86,28 @@ def test_json_contains_what_was_measured(given, capsys):
     (report,) = json.loads(capsys.readouterr().out)
     assert report["measured"]["wendland-c2"]["normal"] == [0.6707, 0.9112]
     assert report["properties"]["exact_hydrostatic"] == "held"
+
+
+def test_expected_failures_callback_and_junit(tmp_path):
+    seen = []
+    (report,) = verification.verify(
+        ["tait"],
+        callback=lambda label, result: seen.append((label, str(result.check), result.verdict)),
+        expected_failed_checks={"inverse": "we say so"},
+    )
+    assert [result.verdict for result in report.results] == ["kept", "broken", "kept", "kept"]
+    assert seen[1] == ("tait", "inverse", "broken")
+    assert report.as_data()["checks"][1]["expected"] == "we say so"
+    failing = verification.Result(Check("inverse", print), "2 instead of 1", "known")
+    absent = verification.Result(Check("linear", print, promised=False), "no")
+    others = Report("doubtful", "kernels", "", (failing, absent), None)
+    write_junit([report, others, Report("lost", "kernels", "", (), "cannot be made: no width")], tmp_path / "found.xml")
+    root = ElementTree.parse(tmp_path / "found.xml").getroot()
+    suites = {suite.get("name"): suite.attrib for suite in root}
+    assert suites["tait"] == {"name": "tait", "tests": "4", "failures": "1", "errors": "0", "skipped": "0"}
+    assert suites["doubtful"]["skipped"] == "2"
+    assert suites["lost"]["errors"] == "1"
+    assert root.find(".//failure").get("message") == "it was expected to fail (we say so), but holds"
 
 
 def test_json_and_markdown_exclude_each_other():

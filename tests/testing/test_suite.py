@@ -101,7 +101,9 @@ def test_evaluate_returns_weights_and_status():
 
 
 def test_ids_of_tests_name_component_and_check():
-    @parametrize_with_checks([create("interpolators", "sfdi", form="printed")], expected_failures={"compiles": "why"})
+    @parametrize_with_checks(
+        [create("interpolators", "sfdi", form="printed")], expected_failed_checks={"compiles": "why"}
+    )
     def prove(method, check):
         pass
 
@@ -110,6 +112,24 @@ def test_ids_of_tests_name_component_and_check():
     assert "SFDI(form='printed', amplification=None)-partition_of_unity-2d" in ids
     assert not any("linear_reproduction" in name for name in ids)
     assert [case.id.rpartition("-")[0].rpartition("-")[2] for case in mark.args[1] if case.marks] == ["compiles"] * 2
+
+
+def test_expected_failures_may_depend_on_the_component_and_must_exist():
+    methods = [create("interpolators", name) for name in ("shepard", "normalized")]
+
+    def expected(method):
+        return {"continuity-3d": "jumps"} if method == methods[0] else {}
+
+    @parametrize_with_checks(methods, expected_failed_checks=expected)
+    def prove(method, check):
+        pass
+
+    (mark,) = prove.pytestmark
+    (marked,) = [case for case in mark.args[1] if case.marks]
+    assert marked.values[0] == methods[0]
+    assert marked.marks[0].kwargs == {"reason": "jumps", "strict": True}
+    with pytest.raises(ValueError, match="no component has the checks continuous"):
+        parametrize_with_checks(methods, expected_failed_checks={"continuous": "misspelt"})
 
 
 def test_a_test_function_needs_two_arguments():
