@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from sphframe import errors, registry
 from sphframe.interfaces import BoundaryInterpolator, Kernel
-from sphframe.registry.kinds import DISTRIBUTIONS
+from sphframe.registry.kinds import DISTRIBUTIONS, INTERFACES
 from sphframe.registry.nearest import nearest
 
 NEAREST = """
@@ -310,3 +310,10 @@ def test_the_distribution_of_each_component_of_this_project_is_known() -> None:
         for entry in registry.available(kind):
             if entry.distribution.startswith("sphframe-"):
                 assert DISTRIBUTIONS[kind, entry.name] == entry.distribution
+
+
+def test_every_entry_point_group_is_in_the_documentation_with_its_class():
+    page = (Path(__file__).parents[2] / "docs" / "api.md").read_text(encoding="utf-8")
+    for kind in registry.KINDS:
+        (row,) = [line for line in page.splitlines() if line.startswith(f"| `sphframe.{kind}` |")]
+        assert f"`{INTERFACES[kind]}`" in row if kind in INTERFACES else "hookimpl" in row

@@ -74,7 +74,7 @@ def test_names_can_be_given_and_mistakes_are_explained(files, tmp_path):
     assert np.array_equal(read_particles(path, fields={"pressure": "druck"}).pressure, PRESSURE)
     for arguments, complaint in (
         ({"path": path, "fields": {"pressure": "p"}}, "has no field 'p'; it has druck"),
-        ({"path": path, "fields": {"presure": "p"}}, "fields presure are unknown: choose pressure, density"),
+        ({"path": path, "fields": {"druck": "p"}}, "fields druck are unknown: choose pressure, density"),
         ({"path": tmp_path / "none.vtk"}, "none.vtk does not exist"),
         ({"path": tmp_path / "run.csv"}, "expected a file that ends in"),
         ({"path": files["PySPH"], "array": "solid"}, "holds the particle arrays fluid, wall: choose one by --array"),
