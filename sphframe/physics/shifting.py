@@ -12,14 +12,23 @@ The smallest eigenvalue e_i of sum_j x_ji (x) grad_i W_ij V_j is about 1 within 
 particle with e_i < 0.4 is not shifted. One that has a neighbour in its support with e_j < 0.75 is near a free surface:
 it is not shifted along n_i = -grad e / |grad e|, so that the surface is not blurred.
 
+A shifted particle takes the density and the velocity of its new place, where ghosts have du = 0::
+
+    D rho_i / Dt = sum_j [(rho_j du_j + rho_i du_i) - rho_i (du_j - du_i)] . grad_i W_ij V_j
+    D u_i / Dt   = sum_j [(u_j du_j + u_i du_i) - u_i (du_j - du_i)] . grad_i W_ij V_j
+
+Both are about du . grad. Without them the density of a full vessel grows: flow crowds the particles along lines, by
+which the equation of continuity raises their density, and shifting would spread them and leave their density as it is.
+
 Control of the tensile instability: where p_i < 0 and no free surface is near, the pair takes p_j - p_i in place of
 p_i + p_j, which adds (2 p_i / rho_i) sum_j grad_i W_ij V_j to the acceleration.
 
-Neither conserves momentum exactly: shifted particles carry their velocity along, and the second is not antisymmetric.
+Neither conserves momentum exactly: the sums of both are not antisymmetric.
 The reaction on walls does not contain the second.
 
 Source: P. N. Sun, A. Colagrossi, S. Marrone, A. M. Zhang (2017), doi:10.1016/j.cma.2016.10.028, with the velocity of
-P. N. Sun et al. (2019), doi:10.1016/j.cma.2019.03.002, Eq. 9; P. N. Sun et al. (2018), doi:10.1016/j.cpc.2017.11.016.
+the consistent form of P. N. Sun et al. (2019), doi:10.1016/j.cma.2019.03.002; P. N. Sun et al. (2018),
+doi:10.1016/j.cpc.2017.11.016.
 """
 
 import math
@@ -119,12 +128,10 @@ def surface_normals(  # type: ignore[no-untyped-def]
         normals[i, 0], normals[i, 1], normals[i, 2] = scale * gx, scale * gy, scale * gz
 
 
-def shift_particles(rows, parameters, eigenvalues, crowding, normals, speed, interval):  # type: ignore[no-untyped-def]
-    """Move the fluid particles during ``interval`` (s), S dt, at most with half of the largest ``speed``, m/s."""
+def shift_velocities(parameters, eigenvalues, crowding, normals, speed, coefficient):  # type: ignore[no-untyped-def]
+    """Turn ``crowding`` (n, 3) into the velocity S du, at most half of the largest ``speed`` (m/s) times S."""
     for i in numba.prange(eigenvalues.shape[0]):
-        if eigenvalues[i] < SPRAY:
-            continue
-        factor = -2.0 * parameters.smoothing_length * speed
+        factor = -2.0 * parameters.smoothing_length * speed if eigenvalues[i] >= SPRAY else 0.0
         nx, ny, nz = normals[i, 0], normals[i, 1], normals[i, 2]
         u, v, w = factor * crowding[i, 0], factor * crowding[i, 1], factor * crowding[i, 2]
         along = u * nx + v * ny + w * nz
@@ -132,11 +139,55 @@ def shift_particles(rows, parameters, eigenvalues, crowding, normals, speed, int
         v -= along * ny
         w -= along * nz
         size = math.sqrt(u * u + v * v + w * w)
-        scale = interval * min(1.0, 0.5 * speed / size) if size > 0.0 else 0.0
-        rows[i, 0] += scale * u
-        rows[i, 1] += scale * v
+        scale = coefficient * min(1.0, 0.5 * speed / size) if size > 0.0 else 0.0
+        crowding[i, 0], crowding[i, 1], crowding[i, 2] = scale * u, scale * v, scale * w
+
+
+def transported(  # type: ignore[no-untyped-def]
+    rows, lists, fluid_counts, ghost_counts, shares, parameters, shifts, changes
+):
+    """Write the rates of velocity (3) and density at the velocities ``shifts`` (n, 3) to ``changes`` (n, 4)."""
+    n = shifts.shape[0]
+    limit = parameters.support * parameters.support
+    per_h2 = SUPPORT * SUPPORT / limit
+    for i in numba.prange(n):
+        c = i // LANES
+        density, u, v, w = rows[i, COLUMNS.density], rows[i, COLUMNS.u], rows[i, COLUMNS.v], rows[i, COLUMNS.w]
+        du = dv = dw = rate = 0.0
+        for k in range(fluid_counts[c] + ghost_counts[c]):
+            j = lists[c, k]
+            dx, dy, dz, r2 = offset_between(rows, j, rows, i, DIM, PERIODIC, parameters)
+            if r2 < limit and r2 > 0.0:
+                weight = -parameters.gradient_scale * rows[j, COLUMNS.volume] * GRADIENT(r2 * per_h2)
+                if MASKED:
+                    weight *= PER_WHOLE * shares[c, k, i - c * LANES]
+                own = weight * (shifts[i, 0] * dx + shifts[i, 1] * dy + shifts[i, 2] * dz)
+                other = 0.0
+                if j < n:
+                    other = weight * (shifts[j, 0] * dx + shifts[j, 1] * dy + shifts[j, 2] * dz)
+                rate += (rows[j, COLUMNS.density] - density) * other + 2.0 * density * own
+                du += (rows[j, COLUMNS.u] - u) * other + 2.0 * u * own
+                dv += (rows[j, COLUMNS.v] - v) * other + 2.0 * v * own
+                dw += (rows[j, COLUMNS.w] - w) * other + 2.0 * w * own
+        changes[i, 0], changes[i, 1], changes[i, 2], changes[i, 3] = du, dv, dw, rate
+
+
+def shift_particles(rows, shifts, changes, interval, factor):  # type: ignore[no-untyped-def]
+    """Move the fluid particles with ``shifts`` (n, 3) for half of ``interval``, s, and add ``factor`` of ``changes``.
+
+    The changes (n, 4) are those of the positions half way: their first order is off by a part that does not change its
+    sign, since shifting makes particles swing around the places where they are even.
+    """
+    half = 0.5 * interval
+    for i in numba.prange(shifts.shape[0]):
+        rows[i, 0] += half * shifts[i, 0]
+        rows[i, 1] += half * shifts[i, 1]
+        rows[i, COLUMNS.u] += factor * interval * changes[i, 0]
+        rows[i, COLUMNS.v] += factor * interval * changes[i, 1]
         if DIM == 3:
-            rows[i, 2] += scale * w
+            rows[i, 2] += half * shifts[i, 2]
+            rows[i, COLUMNS.w] += factor * interval * changes[i, 2]
+        rows[i, COLUMNS.density] += factor * interval * changes[i, 3]
 
 
 def control_tension(rows, eigenvalues, sums, normals, rates):  # type: ignore[no-untyped-def]

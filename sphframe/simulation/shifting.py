@@ -5,14 +5,21 @@ from typing import Any
 
 import numpy as np
 
-from sphframe.arrays import Array
+from sphframe.arrays import Array, BoolArray
 from sphframe.cases import Case
 from sphframe.compiled import specialise
 from sphframe.errors import InputError
 from sphframe.interfaces import WallGeometry, WallTreatment
 from sphframe.neighbours import NeighbourLists
 from sphframe.physics import LoopParameters
-from sphframe.physics.shifting import control_tension, fluid_fillings, shift_particles, surface_normals
+from sphframe.physics.shifting import (
+    control_tension,
+    fluid_fillings,
+    shift_particles,
+    shift_velocities,
+    surface_normals,
+    transported,
+)
 
 
 class Shifting:
@@ -24,7 +31,8 @@ class Shifting:
     def __init__(self, parts: Mapping[str, Any], coefficient: float, *, tensile_control: bool) -> None:
         self.coefficient, self.tensile_control = coefficient, tensile_control
         self._fill, self._normals = specialise(fluid_fillings, parts), specialise(surface_normals, parts)
-        self._shift, self._control = specialise(shift_particles, parts), specialise(control_tension, parts)
+        self._velocities, self._transport = specialise(shift_velocities, parts), specialise(transported, parts)
+        self._move, self._control = specialise(shift_particles, parts), specialise(control_tension, parts)
         self._found = _scratch(0)
 
     @classmethod
@@ -55,12 +63,28 @@ class Shifting:
         return self._found
 
     def shift(
-        self, rows: Array, lists: NeighbourLists, parameters: LoopParameters, speed: float, interval: float
+        self,
+        rows: Array,
+        lists: NeighbourLists,
+        parameters: LoopParameters,
+        speed: float,
+        interval: float,
+        still: BoolArray | None = None,
     ) -> None:
-        """Shift the particles after a step of ``interval``, s, with the largest ``speed`` of the fluid, m/s."""
+        """Shift the particles, but those that are ``still`` (n,), after a step of ``interval``, s.
+
+        ``speed``: the largest of the fluid, m/s.
+        """
         if self.coefficient > 0.0:
             eigenvalues, _, crowding, normals = self.find(rows, lists, parameters)
-            self._shift(rows, parameters, eigenvalues, crowding, normals, speed, self.coefficient * interval)
+            self._velocities(parameters, eigenvalues, crowding, normals, speed, self.coefficient)
+            if still is not None:
+                crowding[still] = 0.0
+            changes = np.zeros((lists.fluid_count, 4))
+            near = lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares
+            self._move(rows, crowding, changes, interval, 0.0)
+            self._transport(rows, *near, parameters, crowding, changes)
+            self._move(rows, crowding, changes, interval, 1.0)
 
     def control(self, rows: Array, lists: NeighbourLists, parameters: LoopParameters, rates: Array) -> None:
         """Add the control of the tensile instability to the accelerations in ``rates``."""

@@ -89,7 +89,34 @@ def test_the_shift_is_that_of_all_pairs_and_is_limited() -> None:
     simulation._shift(speed, interval)
     moved = system.rows[: system.fluid_count] - before
     np.testing.assert_allclose(moved[:, :2], expected, atol=1e-12)
-    assert not moved[:, 2:].any(), "only positions change"
+    assert not moved[:, simulation.columns.mass].any(), "masses stay"
+
+
+def test_a_shifted_particle_takes_the_fields_of_its_new_place() -> None:
+    simulation = Simulation(closed_box(), threads=1)
+    jittered(simulation, 0.1)
+    system, p, columns = simulation.system, simulation.parameters, simulation.columns
+    n, density = system.fluid_count, columns.density
+    fluid = system.rows[:n]
+    fluid[:, density] += 20.0 * fluid[:, 0]
+    fluid[:, columns.u] = 3.0 * fluid[:, 1]
+    before = fluid.copy()
+    simulation._shift(0.3, 0.001)
+    shift = (fluid - before)[:, :2]
+    half = before[:, :2] + 0.5 * shift  # the sums are those half way
+    x = np.vstack([half, system.rows[n:, :2]])[None] - half[:, None]
+    r = np.linalg.norm(x, axis=2)
+    inside = (r < p.support) & (r > 0.0)
+    kernel = simulation.components.compiled_kernel.gradient
+    slope = np.vectorize(kernel.py_func if hasattr(kernel, "py_func") else kernel)
+    weight = np.where(inside, -p.gradient_scale * slope(np.where(inside, r / p.smoothing_length, 0.0)), 0.0)
+    gradient = (weight * system.rows[None, :, columns.volume])[..., None] * x
+    moves = np.vstack([shift, np.zeros((simulation.ghost_count, 2))])
+    for column in (density, columns.u):
+        f = np.concatenate([before[:, column], system.rows[n:, column]])[None], before[:, column, None]
+        flux = np.einsum("ija,ija->i", gradient, f[0][..., None] * moves[None] + f[1][..., None] * shift[:, None])
+        carried = f[1][:, 0] * np.einsum("ija,ija->i", gradient, moves[None] - shift[:, None])
+        np.testing.assert_allclose((fluid - before)[:, column], flux - carried, atol=1e-9 * np.abs(flux).max())
 
 
 def test_a_lattice_that_repeats_itself_is_not_shifted() -> None:
