@@ -5,6 +5,7 @@ from sphframe.cases.checks import CaseWarning, check_case
 from sphframe.cases.custom import Custom
 from sphframe.cases.exact import Benchmark, ExactCase
 from sphframe.cases.load import load_case, read_toml
+from sphframe.cases.open_boundaries import OpenBoundaries
 from sphframe.cases.parameters import Component, Derived, downward_gravity, quantity, with_default, written
 from sphframe.cases.scene import Diagnostic, Gauge, Probe, Scene, WallPart
 from sphframe.interfaces import Fields
@@ -21,6 +22,7 @@ __all__ = [
     "Fields",
     "Gauge",
     "Guards",
+    "OpenBoundaries",
     "Parameter",
     "Probe",
     "Scene",

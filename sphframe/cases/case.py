@@ -10,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, Validatio
 
 from sphframe.arrays import Array
 from sphframe.cases.explain import explain
+from sphframe.cases.open_boundaries import OpenBoundaries
 from sphframe.cases.parameters import Component, Derived, quantity, unit_of, written
 from sphframe.cases.scene import Scene
 from sphframe.errors import InputError
@@ -80,6 +81,9 @@ class Case(BaseModel, ABC):
     reference_density: float = quantity(1000.0, "kg m-3", "density of the fluid at zero pressure", gt=0)
     periodic: tuple[Literal["x", "y", "z"], ...] = quantity(
         (), "1", "directions in which the domain repeats itself; the domain's extent is the period"
+    )
+    open_boundaries: OpenBoundaries | None = quantity(
+        None, "1", "inflow at the left end of the fluid and outflow at its right end, or none"
     )
     gravity: Gravity = quantity(9.81, "m s-2", "acceleration of gravity, downwards along the last axis, or a vector")
     acceleration: Component = quantity(

@@ -9,6 +9,7 @@ import numpy as np
 
 from sphframe.cases.case import Case
 from sphframe.cases.fluid_checks import fluid_problems, fluid_reservations
+from sphframe.cases.open_boundaries import open_boundary_problems
 from sphframe.cases.parameters import Component
 from sphframe.cases.placement import placed_force, placed_scene
 from sphframe.cases.scene import Scene
@@ -123,6 +124,8 @@ def _scene_problems(case: Case, scene: Scene) -> Iterator[str]:
             )
             return
     yield from fluid_problems(scene, spacing, support, periods)
+    if case.open_boundaries is not None:
+        yield from open_boundary_problems(case, scene, support)
     lower, upper = np.array(scene.domain)
     for probe in scene.probes:
         if np.any(np.array(probe.position) < lower) or np.any(np.array(probe.position) > upper):

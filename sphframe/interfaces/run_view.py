@@ -66,7 +66,7 @@ class RunView(Protocol):
     time_step: float
     """Length of the last time step, s; 0 before the first."""
     particle_count: int
-    """Number of fluid particles at the start of the run."""
+    """Number of fluid particles at the start of the run; with open ends the most there may be."""
 
     @property
     def wall_clock(self) -> float:

@@ -122,7 +122,7 @@ def _dimensions(simulation: RunView) -> dict[str, int | None]:
         "triangle": triangles,
         "corner": 3 * (triangles > 0),
         "ghost": simulation.ghost_count,
-        "particle": simulation.fluid_count,
+        "particle": simulation.particle_count,
         "probe_time": sample_count(case.until, case.probe_interval, case.time_step),
     }
     return {**{name: length for name, length in lengths.items() if length > 0}, "time": None}

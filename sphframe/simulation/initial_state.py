@@ -21,6 +21,7 @@ from sphframe.simulation.components import Components
 from sphframe.simulation.filling_check import WallFilling, check_filling, filling_beside_walls
 from sphframe.simulation.initial_walls import hydrostatic_densities, initial_boundary, initial_filling
 from sphframe.simulation.light_bodies import check_weights
+from sphframe.simulation.open_channel import OpenChannel
 from sphframe.simulation.rate_loops import RateLoops
 from sphframe.simulation.rest_state import pressure_at_depth, still_levels
 from sphframe.simulation.shifting import Shifting
@@ -105,6 +106,9 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     )
     pressure = _initial_pressure(case, scene, components, parameters, boundary, position, members)
     rows = _initial_rows(position, start.volume, pressure, boundary, components, parameters)
+    channel = OpenChannel.of_case(case, scene, parameters, position, components.parts)
+    if channel is not None:
+        rows[: len(position), Columns.of(dim).velocity] = channel.initial_velocity(position)
     for index, region in enumerate(scene.fluid):
         if region.velocity is not None:
             rows[: len(position)][members == index, Columns.of(dim).velocity] = region.velocity
@@ -122,7 +126,7 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     states = WallStates(boundary, components.walls.rate, components.parts)
     filling = initial_filling(case, components)
     system = FluidSystem(
-        rows, boundary, filling, lists, loops, states, parts, parameters, contacts, components.body_force
+        rows, boundary, filling, lists, loops, states, parts, parameters, contacts, components.body_force, channel
     )
     system.move_walls(0.0)
     system.find_neighbours()

@@ -26,7 +26,7 @@ class Observation:
     case, scene: what is simulated. ``components``: the kernel, equation of state, interpolator and integrator.
     system: fluid particles, ghosts and bodies; ``boundary`` its ghosts: ``position`` and ``mirror`` (g, dim) at
         present, ``statuses`` (g,).
-    particle_count: fluid particles at the start; ``ghost_count``: ghosts.
+    particle_count: fluid particles at the start, with open ends the most there may be; ``ghost_count``: ghosts.
     sound_speed: reference sound speed c0, m/s; ``smoothing_length`` h, ``support`` radius of the kernel, m.
     """
 
@@ -36,7 +36,7 @@ class Observation:
         self.columns = system.columns
         self.sound_speed, self.support = self.parameters.sound_speed, self.parameters.support
         self.smoothing_length = self.parameters.smoothing_length
-        self.particle_count = system.fluid_count
+        self.particle_count = system.channel.capacity if system.channel is not None else system.fluid_count
         self.ghost_count = self.boundary.count
         self._lower, self._upper = (np.array(corner, dtype=np.float64) for corner in scene.domain)
         self._probes = PressureProbes(scene.probes, case.dimension, list(scene.bodies))
@@ -65,8 +65,8 @@ class Observation:
 
     @property
     def removed_count(self) -> int:
-        """Number of particles that have left the domain and were removed."""
-        return self.particle_count - self.fluid_count
+        """Number of particles that have left the domain and were removed; those of an outflow do not count."""
+        return self.particle_count - self.fluid_count if self.system.channel is None else 0
 
     @property
     def ghosts(self) -> Boundary:

@@ -5,7 +5,7 @@ import numpy as np
 from sphframe.arrays import Array, Arrays
 from sphframe.errors import InputError
 
-_PER_FLUID_PARTICLE = {"ids", "rates", "gradient", "turns", "lists.fluid"}
+_PER_FLUID_PARTICLE = {"ids", "rates", "gradient", "turns", "lists.fluid", "channel.waiting"}
 
 
 def check_saved_state(
@@ -15,7 +15,7 @@ def check_saved_state(
 
     Parameters
     ----------
-    particle_count, ghost_count: numbers of fluid particles and ghosts at the start of the case.
+    particle_count, ghost_count: largest numbers of fluid particles and ghosts.
     lower, upper: (dim,) corners of the domain, m.
 
     Raises

@@ -97,9 +97,8 @@ class Simulation(Observation):
 
     def _shift(self, speed: float, interval: float) -> None:
         """Shift the particles after a step of ``interval``, s, if the case asks for it; ``speed``: the largest, m/s."""
-        system = self.system
-        if system.loops.shifting is not None:
-            system.loops.shifting.shift(system.rows, system.lists, system.parameters, speed, interval)
+        if self.system.loops.shifting is not None:
+            self.system.shift(speed, interval)
 
     def _next_time_step(self, speed: float) -> float:
         """Return the case's own time step, or that of the Courant number at the largest ``speed``, m/s."""

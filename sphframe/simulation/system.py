@@ -15,21 +15,22 @@ from sphframe.boundary.corners import Shares
 from sphframe.boundary.filling import Filling, ImageFilling
 from sphframe.boundary.wall_states import WallStates
 from sphframe.compiled import specialise
-from sphframe.interfaces import BodyForce, System
+from sphframe.interfaces import BodyForce
 from sphframe.neighbours import LargestMotion, NeighbourLists, put_in_order
 from sphframe.particles import Columns
 from sphframe.physics import LoopParameters, update_pressure
 from sphframe.simulation.body_contact import BodyContacts
 from sphframe.simulation.body_states import BodyStates
 from sphframe.simulation.driving import Driving
+from sphframe.simulation.open_channel import OpenChannel
+from sphframe.simulation.packed_system import PackedSystem
 from sphframe.simulation.rate_loops import RateLoops
-from sphframe.simulation.updates import add_columns, advance_state, copy_state
 
 _SAVED = ("rows", "rates", "gradient", "loads")
 """the system's own arrays on which the next step depends; ``ids`` come first, as their number may differ"""
 
 
-class FluidSystem(System):
+class FluidSystem(PackedSystem):
     """The state that an integrator advances: packed rows of the fluid, and generalised coordinates of the bodies.
 
     Attributes
@@ -39,7 +40,7 @@ class FluidSystem(System):
     gradient: (n, dim) renormalised density gradient, kg/m^4.
     ids: (n,) original numbers of the fluid particles, which are kept in spatial order.
     turns: (n, dim) periods by which each of them has left the box that repeats itself.
-    bodies: the states of the bodies; ``contacts`` between them and walls.
+    bodies: the states of the bodies; ``contacts`` between them and walls. ``channel``: its open ends, or None.
     loads: (walls, 3 or 6) force and moment of the fluid on each wall.
     """
 
@@ -55,8 +56,10 @@ class FluidSystem(System):
         parameters: LoopParameters,
         contacts: BodyContacts,
         body_force: BodyForce | None = None,
+        channel: OpenChannel | None = None,
     ) -> None:
         dim = boundary.dim
+        self.channel = channel
         self.boundary = boundary
         self.contacts = contacts
         self._filling, self.loops, self.wall_states = filling, loops, wall_states
@@ -79,16 +82,16 @@ class FluidSystem(System):
         self._saved = (*_SAVED, "turns") if boundary.periods else _SAVED
         self._pressure_is_current = False
 
-    @property
-    def fluid_count(self) -> int:
-        """Number of fluid particles."""
-        return len(self.ids)
-
     # neighbours
 
     def find_neighbours(self) -> None:
-        """Put the particles in spatial order, in the box that repeats itself, and list their neighbours."""
+        """Put the particles in spatial order, in the box that repeats itself, and list their neighbours.
+
+        Before, particles enter and leave through open ends.
+        """
         periods = self.boundary.periods
+        if self.channel is not None:
+            self._exchange(self.channel)
         if periods:
             position = self.rows[: self.fluid_count, self.columns.position]
             turns = periods.turns(position)
@@ -100,6 +103,18 @@ class FluidSystem(System):
             put_in_order(array, order, self._spare)
         self.ids = self.ids[order]
         self.lists.build(self.rows, self.boundary.points)
+        if self.channel is not None:
+            self.channel.waiting = self.channel.waiting[order]
+            self.channel.find(self.rows, self.lists, self.parameters.support)
+
+    def _exchange(self, channel: OpenChannel) -> None:
+        """Let particles enter and leave through the open ends."""
+        rows, columns = self.rows[: self.fluid_count], self.columns
+        kept, ids, entered = channel.exchange(rows[:, columns.position], rows[:, columns.mass], self.ids)
+        if entered or len(kept) < self.fluid_count:
+            self.keep(kept)
+            self.ids = ids
+            self.rows[len(kept) - entered : len(kept), 0] -= channel.ends.length
 
     def largest_motion(self) -> LargestMotion:
         """Return the largest speed of the fluid and its largest displacement since the last neighbour search."""
@@ -110,8 +125,11 @@ class FluidSystem(System):
         boundary = self.boundary
         return self.lists.remain_valid(self.rows, boundary.points, motion, wall_speed=boundary.speed, interval=interval)
 
-    def keep(self, kept: BoolArray) -> None:
-        """Continue with the fluid particles that are ``kept`` (n,), whose neighbours must be found again."""
+    def keep(self, kept: BoolArray | IntArray) -> None:
+        """Continue with the fluid particles that are ``kept`` (n,), or with these numbers of them (k,).
+
+        Their neighbours must be found again.
+        """
         n = self.fluid_count
         self.rows = np.vstack([self.rows[:n][kept], self.rows[n:]])
         self.ids, self.turns = self.ids[kept], self.turns[kept]
@@ -128,16 +146,12 @@ class FluidSystem(System):
 
     def evaluate_density(self, time: float) -> None:
         """Compute the density rates of the present state at ``time``, with the density gradient last computed."""
-        self.move_walls(time)
-        self.update_pressure()
-        self.fill_ghosts()
+        self._prepare(time)
         self._sum_density_rates()
 
     def evaluate_acceleration(self, time: float) -> None:
         """Compute the accelerations and the density gradient of the present state at ``time``."""
-        self.move_walls(time)
-        self.update_pressure()
-        self.fill_ghosts()
+        self._prepare(time)
         self._sum(continuity=False)
         if self.bodies.need_loads:
             self.update_loads()
@@ -145,6 +159,14 @@ class FluidSystem(System):
             loads = self._body_loads()
             self.contacts.add_loads(self.bodies.motions, loads)
             self.bodies.update_rates(time, loads)
+
+    def _prepare(self, time: float) -> None:
+        """Bring walls, pressures, zones of open ends and ghosts to the present state at ``time``."""
+        self.move_walls(time)
+        self.update_pressure()
+        if self.channel is not None:
+            self.channel.prescribe(self.rows, self.fluid_count, self.columns, self.parameters, time)
+        self.fill_ghosts()
 
     def move_walls(self, time: float) -> None:
         """Carry the ghosts to where the bodies are; a body under load keeps its last acceleration."""
@@ -179,6 +201,8 @@ class FluidSystem(System):
         self.loops(
             self.rows, self.lists, self.boundary, self.parameters, self.gradient, self.rates, continuity=continuity
         )
+        if self.channel is not None:
+            self.channel.hold(self.rates, self.columns)
 
     def update_loads(self) -> None:
         """Compute force and moment of the fluid on each wall."""
@@ -208,59 +232,24 @@ class FluidSystem(System):
         )  # fmt: skip
         return int(count) + solids.put_back(self.rows, marked, self.bodies.motions)
 
-    # what integrators are made of
-
-    def hold(self) -> None:
-        """Remember the state as the start of the step."""
-        copy_state(self.rows, self._start)
-        self._total[:] = 0.0
-        self.bodies.hold()
-        self.wall_states.hold()
-
-    def advance(self, interval: float) -> None:
-        """y = y0 + interval * f."""
-        advance_state(self.rows, self._start, self.rates, interval)
-        self.bodies.advance(interval)
-        self.wall_states.advance(interval)
-        self._pressure_is_current = False
-
-    def accumulate(self, weight: float) -> None:
-        """total = total + weight * f."""
-        add_columns(self._total, self.rates, self.fluid_count, 0, self._total.shape[1], 0, weight)
-        self.bodies.accumulate(weight)
-        self.wall_states.accumulate(weight)
-
-    def advance_total(self, interval: float) -> None:
-        """y = y0 + interval * total."""
-        advance_state(self.rows, self._start, self._total, interval)
-        self.bodies.advance_total(interval)
-        self.wall_states.advance_total(interval)
-        self._pressure_is_current = False
-
-    def drift(self, interval: float) -> None:
-        """x = x + interval * u."""
-        columns = self.columns
-        add_columns(self.rows, self.rows, self.fluid_count, 0, columns.dim, columns.u, interval)
-        self.bodies.drift(interval)
-
-    def kick(self, interval: float) -> None:
-        """u = u + interval * acceleration."""
-        columns = self.columns
-        add_columns(self.rows, self.rates, self.fluid_count, columns.u, columns.density, 0, interval)
-        self.bodies.kick(interval)
-
-    def update_density(self, interval: float) -> None:
-        """rho = rho + interval * density rate."""
-        density = self.columns.density
-        add_columns(self.rows, self.rates, self.fluid_count, density, density + 1, 0, interval)
-        self.wall_states.update_density(interval)
+    def shift(self, speed: float, interval: float) -> None:
+        """Shift the particles after a step of ``interval``, s; ``speed``: the largest of the fluid, m/s."""
+        assert self.loops.shifting is not None
+        still = None if self.channel is None else self.channel.in_zone(self.rows[: self.fluid_count])
+        self.loops.shifting.shift(self.rows, self.lists, self.parameters, speed, interval, still)
         self._pressure_is_current = False
 
     # what restarts a run
 
     def state(self) -> Arrays:
         """Return copies of all that the next step depends on, by name."""
-        parts = {"bodies": self.bodies.state(), "boundary": self.boundary.state(), "lists": self.lists.state()}
+        parts: dict[str, Arrays] = {
+            "bodies": self.bodies.state(),
+            "boundary": self.boundary.state(),
+            "lists": self.lists.state(),
+        }
+        if self.channel is not None:
+            parts["channel"] = self.channel.state()
         return {
             "ids": self.ids.copy(),
             **{name: getattr(self, name).copy() for name in self._saved},
@@ -271,9 +260,12 @@ class FluidSystem(System):
         """Continue from what :meth:`state` returned for the same case."""
         count = len(state["ids"])
         if count != self.fluid_count:
-            self.keep(np.arange(self.fluid_count) < count)
+            self.keep(np.resize(np.arange(self.fluid_count), count))
         self.ids = state["ids"].copy()
         self.lists.restore(_part(state, "lists"), self.rows)
+        if self.channel is not None:
+            self.channel.restore(_part(state, "channel"))
+            self.channel.find(self.rows, self.lists, self.parameters.support)
         self.bodies.restore(_part(state, "bodies"))
         self.boundary.restore(_part(state, "boundary"))
         for name in self._saved:

@@ -1,0 +1,72 @@
+"""Simulation: what integrators are made of: updates of the packed rows, and of the bodies and walls with them."""
+
+from sphframe.arrays import Array
+from sphframe.boundary.wall_states import WallStates
+from sphframe.interfaces import System
+from sphframe.particles import Columns
+from sphframe.simulation.body_states import BodyStates
+from sphframe.simulation.updates import add_columns, advance_state, copy_state
+
+
+class PackedSystem(System):
+    """A system whose state is packed ``rows``, with the ``rates`` of the last evaluation; a subclass evaluates them."""
+
+    rows: Array
+    rates: Array
+    columns: Columns
+    bodies: BodyStates
+    wall_states: WallStates
+    _start: Array
+    _total: Array
+    _pressure_is_current: bool
+
+    @property
+    def fluid_count(self) -> int:
+        """Number of fluid particles, which come first in the rows."""
+        return len(self.rates)
+
+    def hold(self) -> None:
+        """Remember the state as the start of the step."""
+        copy_state(self.rows, self._start)
+        self._total[:] = 0.0
+        self.bodies.hold()
+        self.wall_states.hold()
+
+    def advance(self, interval: float) -> None:
+        """y = y0 + interval * f."""
+        advance_state(self.rows, self._start, self.rates, interval)
+        self.bodies.advance(interval)
+        self.wall_states.advance(interval)
+        self._pressure_is_current = False
+
+    def accumulate(self, weight: float) -> None:
+        """total = total + weight * f."""
+        add_columns(self._total, self.rates, self.fluid_count, 0, self._total.shape[1], 0, weight)
+        self.bodies.accumulate(weight)
+        self.wall_states.accumulate(weight)
+
+    def advance_total(self, interval: float) -> None:
+        """y = y0 + interval * total."""
+        advance_state(self.rows, self._start, self._total, interval)
+        self.bodies.advance_total(interval)
+        self.wall_states.advance_total(interval)
+        self._pressure_is_current = False
+
+    def drift(self, interval: float) -> None:
+        """x = x + interval * u."""
+        columns = self.columns
+        add_columns(self.rows, self.rows, self.fluid_count, 0, columns.dim, columns.u, interval)
+        self.bodies.drift(interval)
+
+    def kick(self, interval: float) -> None:
+        """u = u + interval * acceleration."""
+        columns = self.columns
+        add_columns(self.rows, self.rates, self.fluid_count, columns.u, columns.density, 0, interval)
+        self.bodies.kick(interval)
+
+    def update_density(self, interval: float) -> None:
+        """rho = rho + interval * density rate."""
+        density = self.columns.density
+        add_columns(self.rows, self.rates, self.fluid_count, density, density + 1, 0, interval)
+        self.wall_states.update_density(interval)
+        self._pressure_is_current = False
