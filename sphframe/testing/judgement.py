@@ -23,12 +23,16 @@ FULL = 0.9
 class Judgement:
     """Results of a method for m particles that were left out.
 
+    Attributes
+    ----------
     status: (m,), see :class:`sphframe.Status`; DRY without neighbours.
-    neighbours: (m,) their number. ``total``: (m,) sum_j Phi_j.
-    gain: (m,) sum |Phi_j|, the largest factor by which errors of the values are magnified; ``noise``: (m,)
-        sqrt(sum Phi_j^2), the factor for independent errors.
-    error: (m,) interpolated less stored pressure, Pa. ``inside``: (m,) whether the particle is in the midst of the
-        fluid. ``scale``: root mean square of the stored pressures, Pa.
+    neighbours: (m,), their number.
+    total: (m,), sum_j Phi_j.
+    gain: (m,), the sum of the absolute weights, by which errors of the values are magnified at most.
+    noise: (m,), the root of the sum of the squares of the weights, the factor for independent errors.
+    error: (m,), interpolated less stored pressure, Pa.
+    inside: (m,), whether the particle is in the midst of the fluid.
+    scale: root mean square of the stored pressures, Pa.
     """
 
     status: IntArray

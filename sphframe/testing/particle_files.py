@@ -41,8 +41,13 @@ NAMES = {
 class Particles:
     """Particles of a fluid, n of them, in the d directions in which they differ.
 
-    ``position`` (n, d), m; ``volume`` (n,), m^d; ``pressure`` (n,), Pa; ``spacing``, m; ``smoothing_length``, m, where
-    the file gives it.
+    Attributes
+    ----------
+    position: (n, d), m.
+    volume: (n,), m^d.
+    pressure: (n,), Pa.
+    spacing: particle spacing, m.
+    smoothing_length: m, where the file gives it.
     """
 
     position: Array
