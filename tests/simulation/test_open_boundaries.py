@@ -113,6 +113,7 @@ def test_the_same_bits_with_threads_and_after_a_restart() -> None:
         simulation = run(Simulation(case, threads=count), 0.12)
         saved = simulation.state()
         states.append(run(simulation, 0.2).state())
+    assert all(array.dtype.kind in "iuf" for array in saved.values()), "a checkpoint holds numbers alone"
     other = Simulation(case, threads=1)
     other.restore(saved)
     states.append(run(other, 0.2).state())
