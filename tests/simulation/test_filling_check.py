@@ -60,6 +60,9 @@ def test_the_filling_in_three_dimensions_and_a_free_end():
     check_filling(start.filling, scene.walls, refuse=True)
 
 
+MESSAGE = r"beside wall 'tank', fluid and ghosts fill the kernel by \d+% at \(0.3[678]"
+
+
 def test_ghosts_that_lack_volume_are_reported_with_wall_and_place():
     """F changes by the share of the Gaussian kernel that lies behind a straight wall, erfc(d/h)/2 at the distance d."""
     start, scene, components, parameters = start_of(case_of())
@@ -84,6 +87,16 @@ def test_a_gap_between_fluid_and_wall_is_refused_or_reported():
         sphframe.Simulation(case, threads=1)
     with pytest.warns(CaseWarning, match="beside wall 'tank'"):
         sphframe.Simulation(case.model_copy(update={"guards": Guards(filling="report")}), threads=1)
+
+
+def test_a_gap_in_three_dimensions_is_refused_or_reported():
+    tank = {"shape": "box", "name": "tank", "lower": (0, 0, 0), "upper": (0.4, 0.4, 0.5), "open_faces": ("+z",)}
+    for gap, refused in ((0.02, True), (0.01, False)):
+        water = {"shape": "box", "lower": (0, 0, 0), "upper": (0.4 - gap, 0.4, 0.4)}
+        case = load_case(Custom(dimension=3, particle_spacing=0.04, until=1.0, walls=[tank], fluid=[water]))
+        expected = pytest.raises(InputError, match=MESSAGE) if refused else pytest.warns(CaseWarning, match=MESSAGE)
+        with expected:
+            sphframe.Simulation(case, threads=1)
 
 
 def test_the_picture_shows_everything(tmp_path):
