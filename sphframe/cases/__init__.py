@@ -7,7 +7,7 @@ from sphframe.cases.exact import Benchmark, ExactCase
 from sphframe.cases.load import load_case, read_toml
 from sphframe.cases.open_boundaries import OpenBoundaries
 from sphframe.cases.parameters import Component, Derived, downward_gravity, quantity, with_default, written
-from sphframe.cases.scene import Diagnostic, Gauge, Probe, Scene, WallPart
+from sphframe.cases.scene import Diagnostic, Gauge, Probe, Scene, Sources, WallPart
 from sphframe.interfaces import Fields
 
 __all__ = [
@@ -26,6 +26,7 @@ __all__ = [
     "Parameter",
     "Probe",
     "Scene",
+    "Sources",
     "WallPart",
     "check_case",
     "downward_gravity",

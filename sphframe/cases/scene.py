@@ -70,6 +70,19 @@ class Diagnostic:
 
 
 @dataclass(frozen=True)
+class Sources:
+    """What is added to the equations of the fluid at positions x (n, dim) and a time t, such that a flow solves them.
+
+    ``acceleration`` (n, dim), m/s^2, and ``density_rate`` (n,), kg/(m^3 s); ``wall_force`` (n, dim), Pa/m, at points of
+    walls: the gradient that the pressure has there, in place of rho0 f.
+    """
+
+    acceleration: Callable[[Array, float], Array]
+    density_rate: Callable[[Array, float], Array]
+    wall_force: Callable[[Array, float], Array]
+
+
+@dataclass(frozen=True)
 class Scene:
     """What is simulated, in SI units; the last axis is the height."""
 
@@ -87,5 +100,6 @@ class Scene:
     """p(position (n, dim)) -> (n,), Pa; None is the compressible rest state below the still water level"""
     initial_velocity: Callable[[Array], Array] | None = None
     """u(position (n, dim)) -> (n, dim), m/s; None is the velocity of each region, by default zero"""
+    sources: Sources | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
     wall_parts: tuple[WallPart, ...] = ()

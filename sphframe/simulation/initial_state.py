@@ -18,6 +18,7 @@ from sphframe.particles import Columns, Periods
 from sphframe.physics import LoopParameters, invert_pressure
 from sphframe.simulation.body_contact import FREQUENCY, BodyContacts
 from sphframe.simulation.components import Components
+from sphframe.simulation.driving import Driving
 from sphframe.simulation.filling_check import WallFilling, check_filling, filling_beside_walls
 from sphframe.simulation.initial_walls import hydrostatic_densities, initial_boundary, initial_filling
 from sphframe.simulation.light_bodies import check_weights
@@ -125,9 +126,8 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     )  # fmt: skip
     states = WallStates(boundary, components.walls.rate, components.parts)
     filling = initial_filling(case, components)
-    system = FluidSystem(
-        rows, boundary, filling, lists, loops, states, parts, parameters, contacts, components.body_force, channel
-    )
+    driving = Driving(parameters, dim, components.body_force, scene.sources)
+    system = FluidSystem(rows, boundary, filling, lists, loops, states, parts, parameters, contacts, driving, channel)
     system.move_walls(0.0)
     system.find_neighbours()
     system.evaluate(0.0)

@@ -15,7 +15,6 @@ from sphframe.boundary.corners import Shares
 from sphframe.boundary.filling import Filling, ImageFilling
 from sphframe.boundary.wall_states import WallStates
 from sphframe.compiled import specialise
-from sphframe.interfaces import BodyForce
 from sphframe.neighbours import LargestMotion, NeighbourLists, put_in_order
 from sphframe.particles import Columns
 from sphframe.physics import LoopParameters, update_pressure
@@ -55,7 +54,7 @@ class FluidSystem(PackedSystem):
         parts: Mapping[str, Any],
         parameters: LoopParameters,
         contacts: BodyContacts,
-        body_force: BodyForce | None = None,
+        driving: Driving,
         channel: OpenChannel | None = None,
     ) -> None:
         dim = boundary.dim
@@ -69,7 +68,7 @@ class FluidSystem(PackedSystem):
         walls = len(boundary.wall_body)
         self.loads = np.zeros((walls, self.bodies.size))
         self._partial_loads = np.zeros((64, walls, self.bodies.size))
-        self._driving = Driving(parameters, dim, body_force)
+        self._driving = driving
         self._pressure = specialise(update_pressure, parts)
         self._put_back = specialise(put_back, {**parts, "MARKS": boundary.solid_contacts.needed})
         count = lists.fluid_count
@@ -142,17 +141,17 @@ class FluidSystem(PackedSystem):
     def evaluate(self, time: float) -> None:
         """Compute all rates of the present state at ``time``."""
         self.evaluate_acceleration(time)
-        self._sum_density_rates()
+        self._sum_density_rates(time)
 
     def evaluate_density(self, time: float) -> None:
         """Compute the density rates of the present state at ``time``, with the density gradient last computed."""
         self._prepare(time)
-        self._sum_density_rates()
+        self._sum_density_rates(time)
 
     def evaluate_acceleration(self, time: float) -> None:
         """Compute the accelerations and the density gradient of the present state at ``time``."""
         self._prepare(time)
-        self._sum(continuity=False)
+        self._sum(time, continuity=False)
         if self.bodies.need_loads:
             self.update_loads()
         if len(self.bodies):
@@ -172,8 +171,7 @@ class FluidSystem(PackedSystem):
         """Carry the ghosts to where the bodies are; a body under load keeps its last acceleration."""
         self.bodies.update_motions(time, self._body_loads())
         self.set_body_force(time)
-        ghosts, density, driving = self.rows[self.fluid_count :], self.parameters.reference_density, self._driving
-        self.boundary.move(self.bodies.motions, ghosts, driving.force, density, driving.gradient)
+        self._driving.move(self.boundary, self.bodies.motions, self.rows[self.fluid_count :], time)
 
     def set_body_force(self, time: float) -> None:
         """Take the force per mass at ``time``, that of gravity and of the case's acceleration."""
@@ -193,14 +191,15 @@ class FluidSystem(PackedSystem):
         """Mirror, interpolate, assign."""
         self._filling(self.rows, self.lists, self.boundary, self.parameters)
 
-    def _sum_density_rates(self) -> None:
-        self._sum(continuity=True)
+    def _sum_density_rates(self, time: float) -> None:
+        self._sum(time, continuity=True)
         self.wall_states.evaluate(self.rows, self.lists, self.parameters)
 
-    def _sum(self, *, continuity: bool) -> None:
+    def _sum(self, time: float, *, continuity: bool) -> None:
         self.loops(
             self.rows, self.lists, self.boundary, self.parameters, self.gradient, self.rates, continuity=continuity
         )
+        self._driving.add_sources(self.rows, self.rates, time, continuity=continuity)
         if self.channel is not None:
             self.channel.hold(self.rates, self.columns)
 

@@ -9,6 +9,7 @@ from sphframe_flows.hydrostatic_wedge import HydrostaticWedge
 from sphframe_flows.impacts import CeilingRelease, ColumnImpact
 from sphframe_flows.jet_on_plate import JetOnPlate
 from sphframe_flows.lid_driven_cavity import LidDrivenCavity
+from sphframe_flows.manufactured import ManufacturedFlow
 from sphframe_flows.oblique_jet import ObliqueJet
 from sphframe_flows.oscillating import Oscillating
 from sphframe_flows.oscillating_cylinder import OscillatingCylinder
@@ -32,6 +33,7 @@ __all__ = [
     "HydrostaticWedge",
     "JetOnPlate",
     "LidDrivenCavity",
+    "ManufacturedFlow",
     "ObliqueJet",
     "Oscillating",
     "OscillatingCylinder",
