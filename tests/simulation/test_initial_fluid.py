@@ -35,6 +35,17 @@ def test_a_block_above_a_pool_falls_freely_and_the_pool_is_at_rest() -> None:
     np.testing.assert_allclose(pressure[~block], RHO_G * (0.2 - position[~block, 1]), rtol=2e-3)
 
 
+def test_jitter_displaces_all_particles_at_random_by_no_more_than_it_says() -> None:
+    pool = box((0, 0), (1, 0.2))
+    rest, _, _ = start(case(pool))
+    moved = [start(case(pool, jitter=0.05, seed=seed))[0] for seed in (1, 1, 2)]
+    assert np.array_equal(moved[0], moved[1])
+    assert not np.any(moved[0] == moved[2])
+    nearest = np.abs(moved[0][:, None] - rest[None]).max(axis=2).min(axis=1)
+    assert nearest.min() > 0.0
+    assert 0.95 * 0.05 * 0.02 < nearest.max() <= 0.05 * 0.02 + 1e-12
+
+
 def test_fluid_beside_a_wall_or_below_a_lid_falls_freely_too() -> None:
     closed = {**TANK, "open_faces": ()}
     _, pressure, _ = start(case(box((0, 1.2), (0.4, 1.5)), walls=(closed,)))

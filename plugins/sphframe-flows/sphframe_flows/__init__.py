@@ -3,6 +3,7 @@
 from sphframe_flows.accelerated_tank import AcceleratedTank
 from sphframe_flows.channels import Couette, Poiseuille
 from sphframe_flows.cylinder_array import CylinderArray
+from sphframe_flows.dam_break_impact import DamBreakImpact
 from sphframe_flows.drum import Drum
 from sphframe_flows.forces import Roll, RotatingFrame, Surge
 from sphframe_flows.hydrostatic_wedge import HydrostaticWedge
@@ -29,6 +30,7 @@ __all__ = [
     "ColumnImpact",
     "Couette",
     "CylinderArray",
+    "DamBreakImpact",
     "Drum",
     "HydrostaticWedge",
     "JetOnPlate",

@@ -34,6 +34,7 @@ COARSE: dict[str, tuple[dict[str, Any], dict[str, float]]] = {
     "ceiling-release": ({"particle_spacing": 0.04}, {"fall": 1e-9, "force": 1e-9, "shape": 1e-9}),
     "drum": ({"particle_spacing": 0.05, "slip": "no"}, {"velocity": 0.05, "angular_momentum": 0.12}),
     "accelerated-tank": ({"particle_spacing": 0.03, "until": 0.3}, {"pressure": 0.02, "velocity": 0.01}),
+    "dam-break-impact": ({"particle_spacing": 0.03}, {"pressure": 0.3, "P4": 0.25}),
     "oblique-jet": ({"length": 0.8}, {"force": 0.05, "split": 0.03}),
     "taylor-green": ({"until": 0.5}, {"last_kinetic_energy": 0.03, "velocity": 0.05, "largest_hole": 0.2}),
 }
