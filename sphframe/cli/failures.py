@@ -33,12 +33,6 @@ class Commands(TyperGroup):
             except Exception as error:
                 if os.environ.get("SPHFRAME_DEBUG") == "1":
                     raise
-                if isinstance(error, RuntimeError) and "no locator available" in str(error):  # raised by Numba
-                    _print_error(
-                        "compiled loops cannot be stored: neither the folder of sphframe nor that of the user's caches"
-                        " can be written to; set the environment variable NUMBA_CACHE_DIR to a folder that can"
-                    )
-                    raise typer.Exit(2) from None
                 _print_defect(error)
                 raise typer.Exit(1) from None
 

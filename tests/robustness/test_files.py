@@ -76,26 +76,6 @@ def test_a_read_only_folder_is_refused_before_anything_runs(tmp_path: Path) -> N
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.skipif(not hasattr(os, "geteuid"), reason="users are POSIX")
-def test_a_package_and_a_home_that_are_read_only_say_where_loops_can_be_stored(tmp_path: Path) -> None:
-    installed = Path(sphframe.__file__).parent
-    shutil.copytree(installed, tmp_path / "sphframe", ignore=shutil.ignore_patterns("__pycache__"))
-    folders = [tmp_path, *(path for path in tmp_path.rglob("*") if path.is_dir())]
-    home = str(tmp_path / "home")
-    environment = {**os.environ, "PYTHONPATH": str(tmp_path), "HOME": home, "XDG_CACHE_HOME": home}
-    environment.pop("NUMBA_CACHE_DIR", None)
-    for folder in folders:
-        folder.chmod(0o555)
-    command = [sys.executable, "-B", "-c", OBEY_PERMISSIONS, "run", "hydrostatic-tank", *TANK]
-    refused = subprocess.run(command, env=environment, cwd="/", capture_output=True, text=True, check=False)
-    for folder in folders:
-        folder.chmod(0o755)
-    if refused.returncode == 77:
-        pytest.skip("the superuser may write to any folder here")
-    assert refused.returncode == 2, refused.stderr
-    assert "set the environment variable NUMBA_CACHE_DIR" in " ".join(refused.stderr.split())
-
-
 @pytest.mark.parametrize("deed", ["deleted", "replaced"])
 def test_an_output_that_is_deleted_or_replaced_stops_the_run(small: ModuleType, tmp_path: Path, deed: str) -> None:
     path = tmp_path / "run.nc"
