@@ -67,6 +67,7 @@ from sphframe.simulation.run import Run as Run
 from sphframe.simulation.run import resume as resume
 from sphframe.simulation.run import run as run
 from sphframe.simulation.simulation import Simulation as Simulation
+from sphframe.studies import Comparison as Comparison
 from sphframe.studies import compare as compare
 
 __version__: str

@@ -42,14 +42,14 @@ def test_commands_exist() -> None:
 
 
 def test_commands_run_in_their_order(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """At tiny settings; ``compare``, ``reproduce`` and ``bench``, which run many cases, are tested elsewhere."""
+    """At tiny settings; commands that run many cases, such as ``compare`` and ``rank``, are tested elsewhere."""
     monkeypatch.chdir(tmp_path)
     lines = re.findall(r"^    (?:.* && )?uv run sphframe (.*?)(?: +# .*)?$", TEXT, flags=re.MULTILINE)
     tiny = ["--set", "particle_spacing=0.06", "--until", "0.02", "--threads", "1"]
     ran = []
     for line in lines:
         name, *arguments = re.sub(r" --set particle_spacing=\S+| --preset \S+", "", line).split()
-        if name not in ("bench", "compare", "reproduce", "watch"):
+        if name not in ("bench", "compare", "rank", "reproduce", "watch"):
             again = name == "run" and arguments[0].endswith(".nc")
             extra = tiny if name == "run" and not again else []
             extra += ["--output", "paper.nc"] if "--preset" in line else []  # its parameters would take long

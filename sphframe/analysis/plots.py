@@ -31,6 +31,7 @@ from sphframe.analysis.exact import draw_exact, exact_case
 from sphframe.analysis.fields import particles_at
 from sphframe.analysis.figures import figure_class, new_figure, save_figure, tidy
 from sphframe.analysis.histories import history_panels
+from sphframe.cases import ExactCase
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,6 +39,8 @@ if TYPE_CHECKING:
 
 _WIDTH = 10.0
 """of a picture, inches"""
+_EXACT_COLUMNS = 3
+"""panels of an exact solution in a row"""
 
 
 def plot_run(
@@ -85,21 +88,30 @@ def plot_run(
     stretch = stretch_of(view, (width - 1.6) / columns)
     height = rows * _panel_height(view, (width - 1.6) / columns, stretch)
     series = history_panels(dataset, reference) if dataset.sizes["probe_time"] > 1 and exact is None else []
-    below = 2.5 * math.ceil(len(series) / 2) + 2.5 * (exact is not None)
+    compared = 0 if exact is None else len(exact.exact(dataset).data_vars)
+    below = 2.5 * math.ceil(len(series) / 2) + 2.5 * math.ceil(compared / _EXACT_COLUMNS)
     figure = new_figure(width, height + below + 1.0, dpi=150)
     grid = figure.add_gridspec(2 if below else 1, 1, height_ratios=[height + 0.4, below] if below else [1.0])
     upper = figure.add_subfigure(grid[0])
     panels = upper.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     _draw_panels(upper, panels, dataset, frames, field, view, stretch, surface=surface)
     if exact is not None:
-        lower = figure.add_subfigure(grid[1])
-        draw_exact(list(np.atleast_1d(lower.subplots(1, len(exact.exact(dataset).data_vars)))), dataset, exact)
+        _draw_exact_panels(figure.add_subfigure(grid[1]), dataset, exact, compared)
     elif series:
         _draw_series(figure.add_subfigure(grid[1]), series)
     figure.suptitle(with_stretch(run_title(dataset), stretch), fontsize=12, wrap=True)
     if path is not None:
         save_figure(figure, path)
     return figure  # type: ignore[no-any-return]
+
+
+def _draw_exact_panels(figure: Any, dataset: xr.Dataset, exact: ExactCase, count: int) -> None:
+    """Draw the ``count`` variables of a run beside the exact ones, in rows of panels."""
+    shape = (math.ceil(count / _EXACT_COLUMNS), min(count, _EXACT_COLUMNS))
+    panels = list(figure.subplots(*shape, squeeze=False).flat)
+    draw_exact(panels, dataset, exact)
+    for unused in panels[count:]:
+        unused.set_visible(False)
 
 
 def _panel_height(view: View, width: float, stretch: int) -> float:

@@ -44,7 +44,7 @@ def run_command(
             f"{path} is the run to repeat, and would be replaced: give another --output, such as again.nc"
         )
     picture = picture_of(path)
-    there = [str(one) for one in (path, checkpoint_path(path), picture) if one.exists()]
+    there = [str(one) for one in (path, checkpoint_path(path), picture) if one.exists() and not one.is_dir()]
     if there and not overwrite and (there != [str(picture)] or find_spec("matplotlib")):
         resume = f", sphframe resume {path} to continue the run" if checkpoint_path(path).exists() else ""
         exist = "exists" if len(there) == 1 else "exist"

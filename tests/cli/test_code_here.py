@@ -38,4 +38,4 @@ def test_run_and_verify_find_a_module_in_the_working_directory(tmp_path: Path) -
         "run", "hydrostatic-tank", "--set", "particle_spacing=0.05", "--until", "0.01", "--interpolator", "of_mine:Mean"
     )
     assert ran.returncode == 0, ran.stderr
-    assert (tmp_path / "hydrostatic-tank.nc").exists()
+    assert list(tmp_path.glob("hydrostatic-tank*.nc"))

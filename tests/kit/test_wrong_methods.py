@@ -706,12 +706,15 @@ PLAIN = ("kernel", "additivity", "locality", "continuity", "interpolates_particl
 """checks that run here in plain Python, since the compilation of each wrong method would take longer"""
 
 
+@pytest.mark.parametrize(
+    "seeds", [pytest.param(range(2), id="two"), pytest.param(range(2, 10), id="ten", marks=pytest.mark.long)]
+)
 @pytest.mark.parametrize("mistake", CASES)
-def test_is_caught_with_every_seed(mistake, monkeypatch):
+def test_is_caught_with_every_seed(mistake, seeds, monkeypatch):
     case = CASES[mistake]
     monkeypatch.setattr(numba.config, "DISABLE_JIT", case.caught_by in PLAIN)
     check = check_called(case, case.caught_by)
-    for seed in range(10):
+    for seed in seeds:
         monkeypatch.setattr(hypothesis.core, "global_force_seed", seed)
         with pytest.raises(BrokenPromiseError) as caught:
             check(case.method)

@@ -58,6 +58,7 @@ class FakeSimulation:
         self.processor_time = 0.0
         self.sound_speed, self.smoothing_length = 44.3, 0.13
         self.fluid_count, self.ghost_count = particles, 20
+        self.particle_count = particles
         self.removed_count = self.densities_outside = 0
         self.ghosts = SimpleNamespace(
             position=np.full((20, 2), -0.1), mirror=np.full((20, 2), 0.1), body=np.full(20, -1)

@@ -51,7 +51,7 @@ COMMANDS: list[tuple[str, list[str]]] = [
     ("run dam-break --output absent/run.nc", ["absent", "mkdir -p"]),
     ("run dam-break --output kept.nc", ["kept.nc exists", "--overwrite"]),
     ("run dam-break --output left.nc", ["left.nc.restart exists", "--overwrite"]),
-    ("run dam-break --output waiting.nc", ["waiting.nc exists", "sphframe resume waiting.nc"]),
+    ("run dam-break --output waiting.nc", ["waiting.nc and waiting.nc.restart exist", "sphframe resume waiting.nc"]),
     ("run dam-break --output pictured.nc", ["pictured.png exists", "--overwrite"]),
     ("run dam-break --output run.h5", ["run.h5", ".nc"]),
     ("run dam-break --threads 0", ["threads = 0", "offers 1 to"]),

@@ -35,7 +35,10 @@ def depth_behind(mesh: Any, points: Any) -> Any:
     return -igl.signed_distance(np.ascontiguousarray(points), vertices, triangles, sign_type=kind)[0]
 
 
-@pytest.mark.parametrize(("name", "moving"), [("torus", False), ("torus", True), ("sphere", False), ("box", True)])
+@pytest.mark.parametrize(
+    ("name", "moving"),
+    [pytest.param("torus", False, marks=pytest.mark.long), ("torus", True), ("sphere", False), ("box", True)],
+)
 def test_particles_within_a_solid_are_put_back_on_it(tmp_path: Path, name: str, moving: bool) -> None:
     mesh = solid(name)
     mesh.export(tmp_path / "solid.stl")
@@ -135,7 +138,7 @@ def with_body(mesh: Any, path: Path, size: tuple[float, float], depth: float, **
     return Simulation(load_case(case), threads=1)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_floating_cube_that_is_turned_rights_itself(tmp_path: Path) -> None:
     edge, depth, turned = 0.2, 0.25, np.radians(10)
     mesh = trimesh.creation.box((edge, edge, edge))
@@ -160,7 +163,7 @@ def test_a_floating_cube_that_is_turned_rights_itself(tmp_path: Path) -> None:
     assert simulation.particles_outside() == 0
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_heavy_sphere_sinks_to_the_bed_and_stays(tmp_path: Path) -> None:
     mesh, radius = trimesh.creation.icosphere(3, 0.07), 0.07
     mesh.apply_translation((0.15, 0.15, radius + 0.03))

@@ -72,6 +72,7 @@ def test_killed_twice_it_repeats_nothing_and_reports_the_same(tiny: ModuleType, 
     assert written(folder) == written(tmp_path / "undisturbed")
 
 
+@pytest.mark.long
 def test_on_a_scheduler_and_two_workers_started_by_hand(tiny: ModuleType, tmp_path: Path) -> None:
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "cwd": tmp_path}
     dask = [sys.executable, "-W", "ignore", "-m", "dask"]

@@ -17,7 +17,9 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize(
+    "case", [pytest.param(name, marks=[pytest.mark.long] if name == "solitary_wave" else []) for name in CASES]
+)
 def test_a_validation_case_makes_its_tables_and_pictures(
     case: str, cluster: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

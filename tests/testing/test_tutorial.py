@@ -91,7 +91,7 @@ def read(name: str, folder: Path) -> Reader:
 @pytest.mark.slow
 def test_the_tutorial_works_as_written(tmp_path: Path) -> None:
     reader = read("tutorial_plugin.md", tmp_path)
-    assert (reader.folder / "dam-break.nc").exists()
+    assert (reader.folder / "dam-break-franke-little.nc").exists()
     shutil.rmtree(reader.folder)
 
 

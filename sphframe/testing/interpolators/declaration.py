@@ -94,7 +94,8 @@ def check_fewest_points(method: BoundaryInterpolator, dim: int) -> None:
         if outcome.status == OK or len(cloud) < fewest:
             return None
         quadratic = len(cloud) >= 3 * fewest and condition(cloud, 2) < 1e5 and magnification(cloud, 2) < WELL_PLACED
-        around = degree <= 1 and condition(cloud, 1) < 1e3 and magnification(cloud, 1) < AROUND
+        several = degree <= 1 and len(cloud) >= 2 * fewest  # with fewer, the weights of the kernel decide
+        around = several and condition(cloud, 1) < 1e3 and magnification(cloud, 1) < AROUND
         if (quadratic or around) and not (convex and _beside(cloud)):
             return f"the status is {status_name(outcome)} with {len(cloud)} well-placed neighbours"
         return None
