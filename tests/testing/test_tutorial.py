@@ -95,7 +95,7 @@ def test_the_tutorial_works_as_written(tmp_path: Path) -> None:
     shutil.rmtree(reader.folder)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_tutorial_of_wall_treatments_works_as_written(tmp_path: Path) -> None:
     reader = read("tutorial_treatment.md", tmp_path)
     assert (reader.folder / "density-walls.nc").exists()
