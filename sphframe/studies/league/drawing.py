@@ -1,5 +1,6 @@
 """Studies: the figures of the league table."""
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -21,7 +22,8 @@ def curves(name: str, results: Mapping[str, xr.Dataset]) -> Picture | None:
     from matplotlib import colormaps
 
     colours = dict(zip(sorted(results), [*colormaps["tab20"](range(20)), *colormaps["Set2"](range(8))], strict=False))
-    figure = new_figure(4.2 * len(variables), 3.6)
+    columns = 3 * len(variables)
+    figure = new_figure(4.2 * len(variables), 3.0 + 0.14 * math.ceil((len(results) + 1) / columns))
     panels = figure.subplots(1, len(variables), squeeze=False)[0]
     for axes, key in zip(panels, variables, strict=True):
         for method, result in results.items():
@@ -40,7 +42,7 @@ def curves(name: str, results: Mapping[str, xr.Dataset]) -> Picture | None:
         tidy(axes, xlabel=_label(first[f"{key} at"]))
         axes.set_title(_label(exact), fontsize=9, loc="left")
     figure.legend(
-        *panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=6, fontsize=6, frameon=False
+        *panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=columns, fontsize=6, frameon=False
     )
     return picture(
         f"{name}-curves", "All methods beside the exact solution; curves may leave the panel.", figure, raster=True
