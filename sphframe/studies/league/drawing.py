@@ -1,5 +1,7 @@
 """Studies: the figures of the league table."""
 
+import dataclasses
+import io
 import math
 from collections.abc import Mapping
 
@@ -44,8 +46,10 @@ def curves(name: str, results: Mapping[str, xr.Dataset]) -> Picture | None:
     figure.legend(
         *panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=columns, fontsize=6, frameon=False
     )
-    return picture(
-        f"{name}-curves", "All methods beside the exact solution; curves may leave the panel.", figure, raster=True
+    return _small(
+        picture(
+            f"{name}-curves", "All methods beside the exact solution; curves may leave the panel.", figure, raster=True
+        )
     )
 
 
@@ -70,7 +74,17 @@ def particles(name: str, method: str, result: xr.Dataset, spacing: float) -> Pic
     axes.set(xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin), aspect="equal")
     figure.colorbar(dots, ax=axes, shrink=0.8, extend="both", label="pressure (Pa)")
     tidy(axes, xlabel="x (m)", ylabel="y (m)", grid=False)
-    return picture(f"{name}-particles", f"Last frame with {method}.", figure, raster=True)
+    return _small(picture(f"{name}-particles", f"Last frame with {method}.", figure, raster=True))
+
+
+def _small(drawn: Picture) -> Picture:
+    """Return a picture with a palette of 96 colours, which takes a third of the space."""
+    from PIL import Image
+
+    content = io.BytesIO()
+    with Image.open(io.BytesIO(drawn.content)) as image:
+        image.convert("RGB").quantize(96).save(content, format="PNG", optimize=True)
+    return dataclasses.replace(drawn, content=content.getvalue())
 
 
 def _variables(result: xr.Dataset) -> list[str]:
