@@ -12,13 +12,15 @@ project = "sphframe"
 author = "The sphframe developers"
 version = release = sphframe.__version__
 html_theme = "furo"
+html_extra_path = ["pages"]  # the league table, which sphframe rank writes
 html_show_copyright = False
 html_title = f"sphframe {version}"
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.viewcode"]
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3
 include_patterns = [
-    "index.md", "commands.md", "shapes.md", "methods.md", "walls.md", "order.md", "flows.md", "theory/*.md",
+    "index.md", "commands.md", "choosing.md",
+    "shapes.md", "methods.md", "walls.md", "order.md", "flows.md", "theory/*.md",
     "gallery.md", "gallery_shapes.md", "notebooks/*.ipynb",
     "tutorial_plugin.md", "tutorial_treatment.md", "write_a_study.md", "api.md", "comparison.md", "performance.md",
     "reproduction/*.md", "development.md",
