@@ -42,6 +42,17 @@ def test_parts_of_equal_name_are_distinguished():
     assert run(specialise(template, {"PART": power(2), "OFFSET": 5.0}, parallel=False)) == 14.0
 
 
+def test_fingerprint_does_not_depend_on_where_packages_are_installed():
+    def root(x):
+        return np.sqrt(x)
+
+    elsewhere = types.ModuleType("numpy")
+    elsewhere.__file__, elsewhere.sqrt = "/another/environment/numpy/__init__.py", np.sqrt
+    moved = types.FunctionType(root.__code__, {**root.__globals__, "np": elsewhere}, root.__name__)
+    assert repr(elsewhere) != repr(np)
+    assert fingerprint(moved) == fingerprint(root)
+
+
 def test_equal_parts_give_the_same_loop():
     one = specialise(template, {"PART": power(2), "OFFSET": 1.0}, parallel=False)
     assert one is specialise(template, {"PART": power(2), "OFFSET": 1.0}, parallel=False)
