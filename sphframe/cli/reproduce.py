@@ -7,6 +7,7 @@ from rich.console import Console
 
 from sphframe.cli.run import console_log
 from sphframe.cli.studies_progress import shown_progress
+from sphframe.cli.values import listed
 from sphframe.errors import InputError
 from sphframe.studies import installed_study, reproduce
 
@@ -25,20 +26,15 @@ def reproduce_command(
     study = installed_study(name)
     if output is None:
         raise InputError(f"give the folder for the report of {study.title!r}: --output DIR")
-    log = console_log()
-    try:
-        with shown_progress(log) as on_progress:
-            report = reproduce(
-                study,
-                output=output,
-                only=[section for given in only for section in given.split(",") if section],
-                quick=quick,
-                reference=reference,
-                workers=workers,
-                scheduler=scheduler,
-                on_progress=on_progress,
-            )
-    except KeyboardInterrupt:
-        log.print("finished runs are kept; repeat the command to continue")
-        raise
+    with shown_progress(console_log()) as on_progress:
+        report = reproduce(
+            study,
+            output=output,
+            only=listed(only),
+            quick=quick,
+            reference=reference,
+            workers=workers,
+            scheduler=scheduler,
+            on_progress=on_progress,
+        )
     Console(markup=False, highlight=False, soft_wrap=True).print(f"wrote {report}", markup=False)

@@ -18,13 +18,20 @@ _LINE_EVERY = 60.0
 
 @contextmanager
 def shown_progress(log: Console) -> Iterator[ProgressListener]:
-    """Yield a listener that shows the progress of all runs: a bar on a terminal, elsewhere a line per finished run."""
-    if log.is_terminal:
-        columns = (BarColumn(), TextColumn("{task.percentage:3.0f}% {task.description}"))
-        with Bar(*columns, TimeElapsedColumn(), TimeRemainingColumn(), console=log, transient=True) as bar:
-            yield _bar_listener(bar)
-    else:
-        yield _line_listener(log)
+    """Yield a listener that shows the progress of all runs: a bar on a terminal, elsewhere a line per finished run.
+
+    An interruption by the user is passed on, after a line that says how to continue.
+    """
+    try:
+        if log.is_terminal:
+            columns = (BarColumn(), TextColumn("{task.percentage:3.0f}% {task.description}"))
+            with Bar(*columns, TimeElapsedColumn(), TimeRemainingColumn(), console=log, transient=True) as bar:
+                yield _bar_listener(bar)
+        else:
+            yield _line_listener(log)
+    except KeyboardInterrupt:
+        log.print("finished runs are kept; repeat the command to continue")
+        raise
 
 
 def _bar_listener(bar: Bar) -> ProgressListener:

@@ -36,6 +36,15 @@ def read_assignments(assignments: Iterable[str], options: Mapping[str, str | Non
     return parameters
 
 
+def listed(given: Iterable[str]) -> list[str]:
+    """Return the names of an option that is repeatable and takes several names with commas.
+
+    >>> listed(["sfdi,adami", "mdbc"])
+    ['sfdi', 'adami', 'mdbc']
+    """
+    return [name for text in given for name in text.split(",") if name]
+
+
 def allow_imports_from_here(names: Iterable[Any]) -> None:
     """Add the working directory to the end of the import path if a name has the form ``module:attribute``."""
     if any(isinstance(name, str) and is_address(name) for name in names) and os.getcwd() not in sys.path:

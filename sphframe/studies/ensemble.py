@@ -14,6 +14,7 @@ from sphframe.arrays import Array
 from sphframe.studies.chapter import Cell, Table
 
 CONFIDENCE = 0.95
+"""level of the bands, and at which two methods are said to differ"""
 JITTER = 0.02
 """largest displacement of the particles at the start of repeated runs, over the particle spacing"""
 _OVER = ("interpolator", "particle_spacing", "repeat", "probe")

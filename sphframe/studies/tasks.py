@@ -113,7 +113,7 @@ class RunTask(Task):
         options: dict[str, Any] = {
             "threads": threads,
             "checkpoint_every": CHECKPOINT_EVERY,
-            "hooks": [_PartHook(on_part)],
+            "hooks": [PartHook(on_part)],
         }
         case = self.case()
         try:
@@ -129,7 +129,7 @@ class RunTask(Task):
                 raise
 
 
-class _PartHook:
+class PartHook:
     """A hook plugin that calls a listener once per second with the completed part of a run."""
 
     def __init__(self, on_part: PartListener) -> None:

@@ -13,7 +13,8 @@ from sphframe.studies.chapter import Picture
 from sphframe.studies.league.drawing import curves, particles
 from sphframe.studies.league.entrants import Benchmarked, Method
 from sphframe.studies.league.result import Outcome
-from sphframe.studies.league.table import Key
+from sphframe.studies.league.standings import Standing
+from sphframe.studies.league.table import Key, finest
 from sphframe.studies.league.ties import ROUND_OFF
 from sphframe.studies.report import render, write_file
 
@@ -35,20 +36,10 @@ class Cell(NamedTuple):
     cost: float
 
 
-class Standing(NamedTuple):
-    """A method over all benchmarks: median rank, and numbers of benchmarks."""
-
-    median_rank: float
-    best: int
-    completed: int
-    failed: int
-    not_applicable: int
-    cost: float
-
-
 def write_pages(
     folder: Path,
     dataset: xr.Dataset,
+    standing: Mapping[str, Standing],
     methods: Sequence[Method],
     benchmarks: Sequence[Benchmarked],
     results: Mapping[Key, xr.Dataset],
@@ -62,17 +53,16 @@ def write_pages(
     OutputError: a file cannot be written.
     """
     cells = {(m.name, b.name): _cell(dataset, m.name, b.name) for m in methods for b in benchmarks}
-    standings = {method.name: _standing(dataset, cells, method.name, benchmarks) for method in methods}
-    ordered = sorted(methods, key=lambda method: (standings[method.name].median_rank, method.name))
+    by_name = {method.name: method for method in methods}
+    ordered = [by_name[name] for name in standing]
     common = {
         "methods": ordered,
         "benchmarks": benchmarks,
         "cells": cells,
-        "standings": standings,
+        "standings": standing,
         "facts": facts,
         "repeats": int(dataset.attrs["repeats"]),
         "quick": dataset.attrs["quick"] == "yes",
-        "percent": percent,
         "winners": {one.name: _winners(cells, ordered, one.name) for one in benchmarks},
     }
     for one in benchmarks:
@@ -103,7 +93,6 @@ def _cell(dataset: xr.Dataset, method: str, benchmark: str) -> Cell:
     column = dataset.sel(benchmark=benchmark)
     one = column.sel({"method": method})
     outcomes, messages = one["outcome"].values, one["message"].values
-    finest = int(np.flatnonzero(np.isfinite(one["particle_spacing"].values))[-1])
     cost = float(np.nanmean(one["cost"].values)) if np.isfinite(one["cost"].values).any() else math.nan
     error, rank = float(one["score"]), int(one["rank"])
     figures = (rank, error, float(one["spread"]), float(one["order"]), cost)
@@ -113,7 +102,7 @@ def _cell(dataset: xr.Dataset, method: str, benchmark: str) -> Cell:
             grey = "#eeeeee" if outcome == Outcome.NOT_APPLICABLE else "#d9a0a0"
             return Cell(text, math.inf if outcome == Outcome.NOT_APPLICABLE else 1e300, grey, note, *figures)
     best = float(np.nanmin(column["score"].values)) if np.isfinite(column["score"].values).any() else math.nan
-    spacing = float(one["particle_spacing"].values[finest])
+    spacing = float(one["particle_spacing"][finest(one["particle_spacing"].values)])
     note = f"rank {rank} at a particle spacing of {spacing:g} m"
     if math.isnan(error):
         return Cell("-", math.inf, "#eeeeee", "the run gave no error", *figures)
@@ -137,25 +126,6 @@ def _colour(error: float, best: float) -> str:
     ratio = math.log10(max(error, ROUND_OFF) / max(best, ROUND_OFF))
     one, two, share = (_BEST, _MIDDLE, ratio) if ratio < 1.0 else (_MIDDLE, _WORST, min(ratio - 1.0, 1.0))
     return "#" + "".join(f"{round(a + share * (b - a)):02x}" for a, b in zip(one, two, strict=True))
-
-
-def _standing(
-    dataset: xr.Dataset, cells: Mapping[tuple[str, str], Cell], method: str, benchmarks: Sequence[Benchmarked]
-) -> Standing:
-    own = [cells[method, one.name] for one in benchmarks]
-    applicable = [cell for cell in own if cell.text != "n/a"]
-    completed = [cell for cell in applicable if math.isfinite(cell.error)]
-    ranked = [cell.rank for cell in applicable]
-    cheapest = dataset["cost"].isel(resolution=0, repeat=0).min("method")
-    ratio = (dataset["cost"].isel(resolution=0, repeat=0).sel({"method": method}) / cheapest).values
-    return Standing(
-        float(np.median(ranked)) if ranked else math.inf,
-        sum(cell.rank == 1 for cell in completed),
-        len(completed),
-        len(applicable) - len(completed),
-        len(own) - len(applicable),
-        float(np.nanmedian(ratio)) if np.isfinite(ratio).any() else math.nan,
-    )
 
 
 def _share(cells: Mapping[tuple[str, str], Cell], methods: Sequence[Method], method: str, benchmark: str) -> float:

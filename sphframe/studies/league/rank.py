@@ -8,22 +8,28 @@ from typing import Any
 
 import xarray as xr
 
-from sphframe.errors import InputError, OutputError, PluginError
+from sphframe.errors import InputError, PluginError
 from sphframe.output.files import replaced_as_a_whole
 from sphframe.simulation.components import Components
 from sphframe.studies.engine import ProgressListener, carry_out
 from sphframe.studies.league.entrants import Benchmarked, Method, installed_benchmarks, installed_methods
 from sphframe.studies.league.pages import write_pages
 from sphframe.studies.league.result import Outcome, ScoreTask
+from sphframe.studies.league.standings import Standing, standings
 from sphframe.studies.league.table import Key, league_dataset
+from sphframe.studies.report import write_file
 from sphframe.studies.tasks import software_of
 
 
 @dataclass(frozen=True)
 class League:
-    """The table: its ``dataset``, see :func:`sphframe.studies.league.table.league_dataset`, and its first ``page``."""
+    """The table: its ``dataset``, see :func:`sphframe.studies.league.table.league_dataset`, and its first ``page``.
+
+    ``standings``: median rank, numbers of benchmarks and cost of each method, by name, the lowest rank first.
+    """
 
     dataset: xr.Dataset
+    standings: Mapping[str, Standing]
     page: Path
 
 
@@ -74,9 +80,11 @@ def rank(
     facts = software_of(tasks.values())
     with replaced_as_a_whole(output / "table.nc") as draft:
         dataset.to_netcdf(draft, engine="netcdf4")
-    _write_text(output / "provenance.json", json.dumps(_provenance(rows, columns, facts), indent=1) + "\n")
-    page = write_pages(output, dataset, rows, columns, results, facts)
-    return League(dataset, page)
+    provenance = json.dumps(_provenance(rows, columns, facts), indent=1) + "\n"
+    write_file(output / "provenance.json", provenance.encode())
+    standing = standings(dataset)
+    page = write_pages(output, dataset, standing, rows, columns, results, facts)
+    return League(dataset, standing, page)
 
 
 def _tasks(
@@ -124,11 +132,3 @@ def _provenance(
             for one in benchmarks
         },
     }
-
-
-def _write_text(path: Path, text: str) -> None:
-    try:
-        with replaced_as_a_whole(path) as draft:
-            draft.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise OutputError(f"cannot write {path}: {error.strerror or error}; free some space") from None

@@ -22,7 +22,7 @@ from sphframe.output.checkpoint import checkpoint_path
 from sphframe.simulation.run import run
 from sphframe.studies.drawing import thinned
 from sphframe.studies.series import fallback_share
-from sphframe.studies.tasks import PartListener, RunTask
+from sphframe.studies.tasks import PartHook, PartListener, RunTask
 
 _CURVE = 400
 """largest number of points that are kept of a curve"""
@@ -52,12 +52,13 @@ class ScoreTask(RunTask):
         import dask
 
         run_path = path.with_name(f"{path.name}.run.nc")
-        clock = StepClock(on_part)
+        clock = StepClock()
+        hooks = [clock, PartHook(on_part)]
         outcome, message = Outcome.COMPLETED, ""
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", CaseWarning)
-                run(self.case(), output=run_path, overwrite=True, threads=threads, hooks=[clock]).dataset.close()
+                run(self.case(), output=run_path, overwrite=True, threads=threads, hooks=hooks).dataset.close()
         except SimulationError as error:
             outcome, message = Outcome.STOPPED, str(error)
         except PluginError as error:
@@ -77,20 +78,16 @@ class ScoreTask(RunTask):
 class StepClock:
     """A hook plugin that measures the processor time of the steps but the first, in which loops are compiled."""
 
-    def __init__(self, on_part: PartListener) -> None:
-        self._on_part, self._called = on_part, time.monotonic()
+    def __init__(self) -> None:
         self._steps, self._start, self._now = 0, 0.0, 0.0
 
     @hookimpl
     def sphframe_step_completed(self, simulation: RunView) -> None:
-        """Note the time, and report progress once per second."""
+        """Note the time."""
         self._now = time.process_time()
         if self._steps == 0:
             self._start = self._now
         self._steps += 1
-        if time.monotonic() - self._called > 1.0:
-            self._called = time.monotonic()
-            self._on_part(simulation.time / simulation.case.until)
 
     @property
     def per_step(self) -> float:

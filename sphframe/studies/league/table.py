@@ -82,6 +82,11 @@ def league_dataset(
     return dataset.assign(_scores(dataset, repeats))
 
 
+def finest(spacing: Array) -> int:
+    """Return the index of the finest of the particle spacings that a benchmark has; the others are NaN."""
+    return int(np.flatnonzero(np.isfinite(spacing))[-1])
+
+
 def _get(values: Sequence[float], index: int) -> float:
     return values[index] if index < len(values) else math.nan
 
@@ -94,8 +99,8 @@ def _scores(dataset: xr.Dataset, repeats: int) -> dict[str, Any]:
     for j in range(shape[1]):
         one = dataset.isel(benchmark=j)
         error, spacing = one["error"].values, one["particle_spacing"].values
-        finest = int(np.flatnonzero(np.isfinite(spacing))[-1])
-        score[:, j] = _mean(error[:, finest], one["outcome"].values[:, finest])
+        last = finest(spacing)
+        score[:, j] = _mean(error[:, last], one["outcome"].values[:, last])
         spread[:, j] = relative_spread(error[:, 0])
         order[:, j] = [_order(spacing, row[:, 0]) for row in error]
         applicable = ~np.any(one["outcome"].values == Outcome.NOT_APPLICABLE, axis=(1, 2))

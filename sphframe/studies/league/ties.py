@@ -4,9 +4,8 @@ import numpy as np
 from scipy import stats
 
 from sphframe.arrays import Array, IntArray
+from sphframe.studies.ensemble import CONFIDENCE
 
-CONFIDENCE = 0.95
-"""level at which two methods are said to differ"""
 ROUND_OFF = 1e-9
 """errors that differ by less are equal"""
 
