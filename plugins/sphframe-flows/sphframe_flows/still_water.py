@@ -3,7 +3,7 @@
 import math
 from abc import abstractmethod
 from collections.abc import Mapping
-from typing import ClassVar, Literal, NamedTuple, final
+from typing import Any, ClassVar, Literal, NamedTuple, final
 
 import numpy as np
 import xarray as xr
@@ -33,7 +33,8 @@ class StillWater(ExactCase):
     """Water at rest in a tank. Subclasses draw the tank and give the loads on its walls.
 
     ``errors``: RMS of the particles' pressure over rho g d in the last frame; of each load, the mean over the second
-    half of the run, over the largest exact load; and ``kinetic_energy``, over rho g d / 2 per volume.
+    half of the run, relative, or over the largest exact load where it is zero; and ``kinetic_energy``, over
+    rho g d / 2 per volume.
     """
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space")
@@ -62,7 +63,7 @@ class StillWater(ExactCase):
     def exact(self, dataset: xr.Dataset) -> xr.Dataset:
         """Return the ``pressure`` at rest at the depths of the particles, and the loads."""
         position = dataset["position"].isel(time=-1).values
-        below = np.maximum(self.level(position) - position[:, 1], 0.0)
+        below, (place, where) = np.maximum(self.level(position) - position[:, 1], 0.0), self._place(position)
         c2 = self.reference_sound_speed(self.depth) ** 2
         pressure = self.reference_density * c2 * np.expm1(self.gravity * below / c2)
         ones = np.ones(dataset.sizes["probe_time"])
@@ -71,12 +72,14 @@ class StillWater(ExactCase):
             for name, load in self.loads().items()
         }
         return xr.Dataset(
-            {"pressure": variable("depth_below", pressure, "Pa", "pressure"), **loads},
-            coords={
-                "depth_below": variable("depth_below", below, "m", "depth below the level"),
-                "probe_time": sample_times(dataset),
-            },
+            {"pressure": variable(place, pressure, "Pa", "pressure"), **loads},
+            coords={place: where, "probe_time": sample_times(dataset)},
         )
+
+    def _place(self, position: Array) -> tuple[str, tuple[str, Any, dict[str, str]]]:
+        """Return name and values of the coordinate over which the pressure at ``position`` (n, 2), m, is given."""
+        below = np.maximum(self.level(position) - position[:, 1], 0.0)
+        return "depth_below", variable("depth_below", below, "m", "depth below the level")
 
     def measured(self, dataset: xr.Dataset) -> xr.Dataset:
         """Return the same of the run."""
@@ -96,7 +99,8 @@ class StillWater(ExactCase):
         largest = max((abs(load.value) for load in loads.values()), default=1.0)
         for name, load in loads.items():
             mean = float(run[name].isel(probe_time=later).mean())
-            result[name] = abs(mean - load.value) / (largest if load.axis else largest * self.arm)
+            scale_of_load = abs(load.value) or (largest if load.axis else largest * self.arm)
+            result[name] = abs(mean - load.value) / scale_of_load
         volume = float(dataset["mass"][0]) / self.reference_density
         result["kinetic_energy"] = float(dataset["kinetic_energy"][-1]) / (0.5 * scale * volume)
         return result
@@ -105,6 +109,70 @@ class StillWater(ExactCase):
     def arm(self) -> float:
         """The length, m, by which an error of a moment is divided, beside the largest force."""
         return self.depth
+
+    def _tank(self, *bed: tuple[float, float]) -> tuple[PolygonWall, tuple[tuple[float, float], tuple[float, float]]]:
+        """Return the wall ``tank`` of an open tank with a ``bed`` from its left to its right end, and the domain."""
+        height, (left, _), (right, _) = 1.5 * self.depth, bed[0], bed[-1]
+        wall = PolygonWall(name="tank", points=((left, height), *bed, (right, height)))
+        margin = 0.1 * self.depth
+        return wall, ((left - margin, -margin), (right + margin, 2.0 * height))
+
+
+class Obstacle(StillWater):
+    """Still water above an obstacle in the middle of the bed of a tank.
+
+    The water presses down on it, the part :attr:`part` of the wall ``tank``, by rho g (2 b d - A) per metre of width,
+    with the half base b and the area A, and across on its half ``left`` by rho g (d^2 - (d - a)^2) / 2, with the height
+    a. These are integrals of the pressure, since ghosts in corners act for two faces.
+    """
+
+    part: ClassVar[str]
+    """name of the obstacle"""
+
+    tank_length: float = quantity(1.2, "m", "length of the tank", gt=0)
+
+    @property
+    @abstractmethod
+    def sizes(self) -> tuple[float, float, float]:
+        """Half base b, m, height a, m, and area A, m^2."""
+
+    @abstractmethod
+    def outline(self) -> list[tuple[float, float]]:
+        """Return the points of the obstacle above the bed, from left to right, with x from its middle, m."""
+
+    def scene(self) -> Scene:
+        """Draw the tank with its obstacle."""
+        length, depth, (half, top, _) = self.tank_length, self.depth, self.sizes
+        if not (top < depth and half < 0.5 * length):
+            raise InputError(
+                f"the {self.part} must be lower than the water is deep, and its base shorter than the tank"
+            )
+        middle, margin = 0.5 * length, 0.01 * self.particle_spacing
+        above = [(middle + x, y) for x, y in self.outline()]
+        bed = ((0.0, 0.0), (middle - half, 0.0), *above, (middle + half, 0.0), (length, 0.0))
+        wall, domain = self._tank(*bed)
+        lower = (middle - half, -margin)
+        return Scene(
+            walls=(wall,),
+            fluid=(PolygonRegion(points=(*bed, (length, depth), (0.0, depth))),),
+            depth=depth,
+            domain=domain,
+            wall_parts=(
+                WallPart(name="left", wall="tank", lower=lower, upper=(middle, top + margin)),
+                WallPart(name=self.part, wall="tank", lower=lower, upper=(middle + half, top + margin)),
+            ),
+        )
+
+    def loads(self) -> dict[str, Load]:
+        """Return the force down on the obstacle, and across on one half of it."""
+        half, top, area = self.sizes
+        down = -self.weight_scale * (2.0 * half * self.depth - area)
+        across = 0.5 * self.weight_scale * (self.depth**2 - (self.depth - top) ** 2)
+        by_pressure = "part_force_by_pressure"
+        return {
+            "downward_force": Load(f"vertical force on the {self.part}", by_pressure, self.part, "y", down),
+            "horizontal_force": Load("horizontal force on its left half", by_pressure, "left", "x", across),
+        }
 
 
 @final
@@ -161,7 +229,7 @@ class TiltedTank(StillWater):
 
 
 @final
-class CircularSill(StillWater):
+class CircularSill(Obstacle):
     """Still water above a half circle on the bed of a tank: a curved wall, and sharp re-entrant corners.
 
     The part ``sill`` of the wall ``tank`` is pressed down by rho g (2 R d - pi R^2 / 2) per metre of width; its half
@@ -169,6 +237,7 @@ class CircularSill(StillWater):
     """
 
     title: ClassVar[str] = "still water above a half circle"
+    part: ClassVar[str] = "sill"
     benchmarks: ClassVar[Mapping[str, Benchmark]] = {
         "circular-sill": Benchmark(
             "downward_force", "Force of still water on a curved wall.", (0.04, 0.02), {"until": 1.0}
@@ -176,39 +245,16 @@ class CircularSill(StillWater):
     }
 
     radius: float = quantity(0.24, "m", "radius R of the half circle", gt=0)
-    tank_length: float = quantity(1.2, "m", "length of the tank", gt=0)
 
-    def scene(self) -> Scene:
-        """Draw the tank."""
-        length, depth, radius = self.tank_length, self.depth, self.radius
-        if not (radius < depth and radius < 0.5 * length):
-            raise InputError("the half circle must be lower than the water is deep, and shorter than the tank")
-        middle, height = 0.5 * length, 1.5 * depth
-        angle = np.linspace(np.pi, 0.0, round(180.0 / _DEGREES_PER_CHORD) + 1)
-        arc = [(float(middle + radius * np.cos(a)), float(radius * abs(np.sin(a)))) for a in angle[1:-1]]
-        bed = ((0.0, 0.0), (middle - radius, 0.0), *arc, (middle + radius, 0.0), (length, 0.0))
-        low, high = -0.01 * self.particle_spacing, radius + 0.01 * self.particle_spacing
-        return Scene(
-            walls=(PolygonWall(name="tank", points=((0.0, height), *bed, (length, height))),),
-            fluid=(PolygonRegion(points=(*bed, (length, depth), (0.0, depth))),),
-            depth=depth,
-            domain=((-0.1 * depth, -0.1 * depth), (length + 0.1 * depth, 2.0 * height)),
-            wall_parts=(
-                WallPart(name="left", wall="tank", lower=(middle - radius, low), upper=(middle, high)),
-                WallPart(name="sill", wall="tank", lower=(middle - radius, low), upper=(middle + radius, high)),
-            ),
-        )
+    @property
+    def sizes(self) -> tuple[float, float, float]:
+        """The radius twice, m, and the area of the half circle, m^2."""
+        return self.radius, self.radius, 0.5 * math.pi * self.radius**2
 
-    def loads(self) -> dict[str, Load]:
-        """Return the force down on the half circle, and across on one half of it."""
-        depth, radius = self.depth, self.radius
-        down = -self.weight_scale * (2.0 * radius * depth - 0.5 * math.pi * radius**2)
-        across = 0.5 * self.weight_scale * (depth**2 - (depth - radius) ** 2)
-        by_pressure = "part_force_by_pressure"
-        return {
-            "downward_force": Load("vertical force on the half circle", by_pressure, "sill", "y", down),
-            "horizontal_force": Load("horizontal force on its left half", by_pressure, "left", "x", across),
-        }
+    def outline(self) -> list[tuple[float, float]]:
+        """Return points of the half circle."""
+        angle = np.linspace(np.pi, 0.0, round(180.0 / _DEGREES_PER_CHORD) + 1)[1:-1]
+        return [(float(self.radius * np.cos(a)), float(self.radius * np.sin(a))) for a in angle]
 
 
 @final
@@ -248,17 +294,13 @@ class SubmergedBox(StillWater):
         if not (turned[:, 1].max() < depth and turned.min() > 0.0 and turned[:, 0].max() < length):
             raise InputError("the box must be below the surface and within the tank: give a smaller box or more depth")
         box = tuple((float(x), float(y)) for x, y in turned)
-        height = 1.5 * depth
-        tank = ((0.0, height), (0.0, 0.0), (length, 0.0), (length, height))
+        tank, domain = self._tank((0.0, 0.0), (length, 0.0))
         water = Polygon(points=((0.0, 0.0), (length, 0.0), (length, depth), (0.0, depth)))
         return Scene(
-            walls=(
-                PolygonWall(name="tank", points=tank),
-                PolygonWall(name="box", points=box, closed=True, reference_point=centre),
-            ),
+            walls=(tank, PolygonWall(name="box", points=box, closed=True, reference_point=centre)),
             fluid=(DifferenceRegion(of=water, minus=(Polygon(points=box),)),),
             depth=depth,
-            domain=((-0.1 * depth, -0.1 * depth), (length + 0.1 * depth, 2.0 * height)),
+            domain=domain,
         )
 
     def loads(self) -> dict[str, Load]:
