@@ -2,6 +2,7 @@
 
 import numpy as np
 import xarray as xr
+from scipy.integrate import cumulative_trapezoid
 
 from sphframe.analysis.placed import moved
 from sphframe.arrays import Array
@@ -34,4 +35,4 @@ def work_of_bodies(dataset: xr.Dataset) -> Array | None:
                 for k, time in enumerate(times):
                     now, middle = moved(np.vstack([reference, centre]), dataset, int(body), float(time))
                     power[k] -= force[k] @ turning_velocities(omega[k], (now - middle)[None])[0]
-    return np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(times))])
+    return np.asarray(cumulative_trapezoid(power, times, initial=0.0))

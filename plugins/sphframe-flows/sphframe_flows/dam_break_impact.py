@@ -8,7 +8,8 @@ from typing import ClassVar, Literal, final
 import numpy as np
 import xarray as xr
 
-from sphframe import Array, Case
+from sphframe import Case
+from sphframe.analysis import running_mean
 from sphframe.cases import Benchmark, Derived, ExactCase, Probe, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import PolygonRegion, PolygonWall
 from sphframe_flows.solutions import sample_times, variable
@@ -101,22 +102,16 @@ class DamBreakImpact(ExactCase):
         """Return the errors of the pressure; none if the run ends before the impact."""
         exact, run = self.exact(dataset), self.measured(dataset)
         times = dataset["probe_time"].values / self.time_scale
-        compared = (times > _WINDOW[0]) & (times < _WINDOW[1]) & np.isfinite(exact["P1"].values)
         if times[-1] < _WINDOW[0] + 1.0:
             return {}
         scale = self.reference_density * self.gravity * self.water_height
+        published = times[np.isfinite(exact["P1"].values)]
+        compared = slice(max(_WINDOW[0], published[0]), min(_WINDOW[1], published[-1]))
         squares = {}
         for name in _HEIGHTS:
-            both = (_smooth(times, run[name].values), _smooth(times, np.nan_to_num(exact[name].values)))
-            squares[name] = float(np.mean(np.square(both[0] - both[1])[compared])) / scale**2
+            difference = run[name].values - np.nan_to_num(exact[name].values)
+            mean = running_mean(times, difference, _MEAN_OVER, 0.05 * _MEAN_OVER).sel(t=compared)
+            squares[name] = float(np.square(mean).mean()) / scale**2
         return {"pressure": math.sqrt(sum(squares.values()) / len(squares))} | {
             name: math.sqrt(value) for name, value in squares.items()
         }
-
-
-def _smooth(times: Array, values: Array) -> Array:
-    """Return the running mean (n,) of ``values`` over a window of ``_MEAN_OVER`` in ``times``."""
-    total = np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(times))])
-    ends = [np.clip(times + side * 0.5 * _MEAN_OVER, times[0], times[-1]) for side in (-1.0, 1.0)]
-    low, high = (np.interp(end, times, total) for end in ends)
-    return np.asarray((high - low) / (ends[1] - ends[0]))
