@@ -5,7 +5,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.console import Console
@@ -87,26 +87,29 @@ def verify(
     if find_spec("hypothesis") is None:
         raise InputError("the verification suite needs hypothesis: python -m pip install 'sphframe[testing]'")
     allow_imports_from_here(names)
+    reports_of: Any
+    show: Any
     if order:
-        from sphframe.cli.verify_order import verify_order
+        from sphframe.cli.verify_order import print_orders as show
+        from sphframe.testing import verify_order as reports_of
+    else:
+        from sphframe.testing import verify as reports_of
 
-        return verify_order(names, as_json=as_json, as_markdown=as_markdown)
-    from sphframe.testing import verify as reports_of
-
+        show = _print
     console = Console(markup=False, highlight=False)
     if console.is_terminal and not as_json:
         with console.status("verifying") as status:
             reports = list(reports_of(names, progress=lambda text: status.update(f"verifying {text}")))
     else:
         reports = list(reports_of(names))
-    if junit is not None:
+    if junit is not None and not order:
         from sphframe.testing.junit import write_junit
 
         write_junit(reports, junit)
     if as_json:
         print(json.dumps([report.as_data() for report in reports], indent=2))
     else:
-        _print(reports, as_markdown)
+        show(reports, as_markdown)
     return int(any(report.broken for report in reports))
 
 

@@ -1,6 +1,5 @@
 """CLI: ``sphframe verify --order``."""
 
-import json
 import math
 import sys
 from collections.abc import Sequence
@@ -32,24 +31,9 @@ _LEGEND = (
 )
 
 
-def verify_order(names: Sequence[str] = (), *, as_json: bool = False, as_markdown: bool = False) -> int:
-    """Measure orders of convergence, print a table and every promise that does not hold; return the exit code."""
-    from sphframe.testing import verify_order as reports_of
-
+def print_orders(reports: "Sequence[OrderReport]", as_markdown: bool) -> None:
+    """Print a table of orders, and every promise that does not hold."""
     console = Console(markup=False, highlight=False, soft_wrap=True, width=None if sys.stdout.isatty() else 160)
-    if as_json or not console.is_terminal:
-        reports = list(reports_of(names))
-    else:
-        with console.status("verifying") as status:
-            reports = list(reports_of(names, progress=lambda text: status.update(f"verifying {text}")))
-    if as_json:
-        print(json.dumps([report.as_data() for report in reports], indent=2))
-    else:
-        _print(reports, console, as_markdown)
-    return int(any(report.broken for report in reports))
-
-
-def _print(reports: "Sequence[OrderReport]", console: Console, as_markdown: bool) -> None:
     rows = [row for report in reports for row in order_rows(report)]
     if as_markdown:
         print(markdown(HEADINGS, rows))
