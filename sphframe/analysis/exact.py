@@ -52,9 +52,9 @@ def with_exact_solution(dataset: xr.Dataset) -> ExactCase:
     return case
 
 
-def draw_exact(axes: "list[Axes]", dataset: xr.Dataset, case: ExactCase) -> None:
-    """Draw each variable of the run as points and its exact solution as a line, one on each of ``axes``."""
-    exact, measured = case.exact(dataset), case.measured(dataset)
+def draw_exact(axes: "list[Axes]", dataset: xr.Dataset, case: ExactCase, exact: xr.Dataset) -> None:
+    """Draw each variable of the run as points and its ``exact`` solution as a line, one on each of ``axes``."""
+    measured = case.measured(dataset)
     for panel, (name, value) in zip(axes, exact.data_vars.items(), strict=False):
         (dim,) = value.dims
         x, order = value[dim].values, np.argsort(value[dim].values, kind="stable")

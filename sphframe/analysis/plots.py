@@ -88,15 +88,15 @@ def plot_run(
     stretch = stretch_of(view, (width - 1.6) / columns)
     height = rows * _panel_height(view, (width - 1.6) / columns, stretch)
     series = history_panels(dataset, reference) if dataset.sizes["probe_time"] > 1 and exact is None else []
-    compared = 0 if exact is None else len(exact.exact(dataset).data_vars)
-    below = 2.5 * math.ceil(len(series) / 2) + 2.5 * math.ceil(compared / _EXACT_COLUMNS)
+    solution = xr.Dataset() if exact is None else exact.exact(dataset)
+    below = 2.5 * math.ceil(len(series) / 2) + 2.5 * math.ceil(len(solution.data_vars) / _EXACT_COLUMNS)
     figure = new_figure(width, height + below + 1.0, dpi=150)
     grid = figure.add_gridspec(2 if below else 1, 1, height_ratios=[height + 0.4, below] if below else [1.0])
     upper = figure.add_subfigure(grid[0])
     panels = upper.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     _draw_panels(upper, panels, dataset, frames, field, view, stretch, surface=surface)
     if exact is not None:
-        _draw_exact_panels(figure.add_subfigure(grid[1]), dataset, exact, compared)
+        _draw_exact_panels(figure.add_subfigure(grid[1]), dataset, exact, solution)
     elif series:
         _draw_series(figure.add_subfigure(grid[1]), series)
     figure.suptitle(with_stretch(run_title(dataset), stretch), fontsize=12, wrap=True)
@@ -105,11 +105,12 @@ def plot_run(
     return figure  # type: ignore[no-any-return]
 
 
-def _draw_exact_panels(figure: Any, dataset: xr.Dataset, exact: ExactCase, count: int) -> None:
-    """Draw the ``count`` variables of a run beside the exact ones, in rows of panels."""
+def _draw_exact_panels(figure: Any, dataset: xr.Dataset, case: ExactCase, solution: xr.Dataset) -> None:
+    """Draw the variables of a run beside those of the ``solution``, in rows of panels."""
+    count = len(solution.data_vars)
     shape = (math.ceil(count / _EXACT_COLUMNS), min(count, _EXACT_COLUMNS))
     panels = list(figure.subplots(*shape, squeeze=False).flat)
-    draw_exact(panels, dataset, exact)
+    draw_exact(panels, dataset, case, solution)
     for unused in panels[count:]:
         unused.set_visible(False)
 

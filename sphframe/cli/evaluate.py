@@ -31,7 +31,7 @@ def evaluate_command(
     """Judge methods on the particles of a file; print a row for each."""
     allow_imports_from_here([*methods, kernel])
     particles = read_particles(file, **reading)
-    h = smoothing_length or particles.smoothing_length or 1.3 * particles.spacing
+    h = particles.length(smoothing_length)
     found = {}
     for label in methods:
         name, options = parse_label(label)

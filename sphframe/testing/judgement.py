@@ -64,12 +64,12 @@ def judge(
 ) -> Judgement:
     """Judge ``method`` on up to ``sample`` of the ``particles``, evenly chosen.
 
-    ``smoothing_length`` h, m, is that of the file by default, or 1.3 spacings.
+    ``smoothing_length`` h, m, is by default that of :meth:`Particles.length`.
     """
     from scipy.spatial import cKDTree
 
     chosen = create("kernels", kernel) if isinstance(kernel, str) else kernel
-    h = smoothing_length or particles.smoothing_length or 1.3 * particles.spacing
+    h = particles.length(smoothing_length)
     dim, support = particles.position.shape[1], chosen.support * h
     run, value = evaluator(method, dim, chosen), chosen.value_function()
     tree, count = cKDTree(particles.position), len(particles.position)

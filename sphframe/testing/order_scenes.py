@@ -78,10 +78,7 @@ class Beside:
     def __init__(self, component: WallTreatment | BoundaryInterpolator, wall: TestWall, count: int, slip: str) -> None:
         self.wall, self.count, self.slip = wall, count, slip
         self.simulation = _simulation(_chosen(component), wall, count, slip)
-        system, n = self.simulation.system, self.simulation.fluid_count
-        self._place, self._volume = np.empty((n, 2)), np.empty(n)
-        self._place[system.ids] = system.rows[:n, :2]
-        self._volume[system.ids] = system.rows[:n, self.simulation.columns.volume]
+        self._place, self._volume = _particles(self.simulation)
 
     def arrange(self, arrangement: str) -> Sums:
         """Put the fluid in an arrangement, find its neighbours, and return the pairs of the reference."""
@@ -139,6 +136,13 @@ def _simulation(chosen: tuple[tuple[str, Component], ...], wall: TestWall, count
     return Simulation(Custom(**given), threads=1)
 
 
+def _particles(simulation: Simulation) -> tuple[Array, Array]:
+    """Return positions (n, 2), m, and volumes (n,), m^2, in the order of the particles' numbers."""
+    order = np.argsort(simulation.system.ids)
+    fluid = simulation.system.rows[: simulation.fluid_count][order]
+    return fluid[:, :2].copy(), fluid[:, simulation.columns.volume].copy()
+
+
 def _support(count: int) -> float:
     return float(create("kernels", KERNEL).support * RATIO / count)
 
@@ -154,13 +158,10 @@ def _arranged(wall: TestWall, place: Array, count: int, arrangement: str) -> Arr
 def _sums(wall: TestWall, count: int, arrangement: str) -> Sums:
     """Return the pairs of the fluid and of the solver's layers of wall particles."""
     simulation = _simulation((), wall, count, "no")
-    system, n = simulation.system, simulation.fluid_count
-    place, volume = np.empty((n, 2)), np.empty(n)
-    place[system.ids] = system.rows[:n, :2]
-    volume[system.ids] = system.rows[:n, simulation.columns.volume]
+    place, volume = _particles(simulation)
     place = _arranged(wall, place, count, arrangement)
-    cloud = np.vstack([place, system.boundary.position])
-    volume = np.concatenate([volume, system.boundary.volume])
+    cloud = np.vstack([place, simulation.boundary.position])
+    volume = np.concatenate([volume, simulation.boundary.volume])
     kernel, h, support = create("kernels", KERNEL), RATIO / count, _support(count)
     chosen = np.flatnonzero(wall.measured(place, support))
     near = cKDTree(cloud).query_ball_point(place[chosen], support * (1.0 - 1e-12))

@@ -56,6 +56,10 @@ class Particles:
     spacing: float
     smoothing_length: float | None = None
 
+    def length(self, given: float | None) -> float:
+        """Return the smoothing length that is ``given``, m, else that of the file, else 1.3 spacings."""
+        return given or self.smoothing_length or 1.3 * self.spacing
+
 
 def read_particles(
     path: str | Path,
