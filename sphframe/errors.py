@@ -27,12 +27,17 @@ class SimulationError(SphframeError):
 
     Parameters
     ----------
-    message: what happened and its likely causes.
-    place: position (dim,), in m, if the error belongs to one.
+    message
+        what happened and its likely causes.
+    place
+        position (dim,), in m, if the error belongs to one.
 
     Attributes
     ----------
-    time: simulated time, in s; ``step``: number of the step; the running simulation sets both.
+    time
+        simulated time, in s.
+    step
+        number of the step; the running simulation sets both.
     """
 
     exit_code = 3

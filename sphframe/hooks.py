@@ -65,11 +65,13 @@ def hook_manager(plugins: Iterable[object] = ()) -> pluggy.PluginManager:
 
     Parameters
     ----------
-    plugins: listeners of the caller; they are called in this order and before the installed ones.
+    plugins
+        listeners of the caller; they are called in this order and before the installed ones.
 
     Raises
     ------
-    PluginError: when one of ``plugins`` is not a valid listener.
+    PluginError
+        when one of ``plugins`` is not a valid listener.
     """
     manager = pluggy.PluginManager("sphframe")
     manager.add_hookspecs(Events)

@@ -9,8 +9,10 @@ def html_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[objec
 
     Parameters
     ----------
-    columns: headings; all empty for a table without headings.
-    rows: for each row one value per column.
+    columns
+        headings; all empty for a table without headings.
+    rows
+        for each row one value per column.
 
     Examples
     --------

@@ -25,7 +25,8 @@ def convergence_order(spacings: ArrayLike, errors: ArrayLike) -> float:
 
     Raises
     ------
-    InputError: fewer than two spacings, or values that are not positive.
+    InputError
+        fewer than two spacings, or values that are not positive.
     """
     dx, e = _checked(spacings, errors)
     return float(np.polyfit(np.log(dx), np.log(e), 1)[0])

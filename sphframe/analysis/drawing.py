@@ -53,7 +53,8 @@ def field_to_draw(name: str) -> Field:
 
     Raises
     ------
-    InputError: there is no such field.
+    InputError
+        there is no such field.
     """
     if name not in FIELDS:
         raise InputError(f"no field {name!r} to draw; choose one of {', '.join(FIELDS)}")

@@ -42,7 +42,8 @@ def with_exact_solution(dataset: xr.Dataset) -> ExactCase:
 
     Raises
     ------
-    InputError: it knows no exact solution, or the run has no frame or sample.
+    InputError
+        it knows no exact solution, or the run has no frame or sample.
     """
     case = exact_case(dataset)
     if case is None:

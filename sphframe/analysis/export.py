@@ -29,18 +29,24 @@ def export_run(dataset: xr.Dataset, folder: str | os.PathLike[str], to: str, *, 
 
     Parameters
     ----------
-    dataset: the run, finished or still going.
-    folder: created if it is missing; files of an earlier export are replaced.
-    to: ``pvd`` for one series of files per part, ``vtkhdf`` for one file per part with all times (VTK's HDF format);
+    dataset
+        the run, finished or still going.
+    folder
+        created if it is missing; files of an earlier export are replaced.
+    to
+        ``pvd`` for one series of files per part, ``vtkhdf`` for one file per part with all times (VTK's HDF format);
         ParaView opens both with their times. ``csv`` for probes, gauges, energies and diagnostics, ``zarr`` for
         everything, as a store that :func:`sphframe.open_dataset` and xarray open. The parts are ``fluid``, ``ghosts``,
         ``walls`` as lines and, in 3-D, ``surfaces``: the walls as triangles.
-    track: wraps the list of times, such as ``rich.progress.track``.
+    track
+        wraps the list of times, such as ``rich.progress.track``.
 
     Raises
     ------
-    InputError: the format is unknown, the run has no frame yet, or PyVista is not installed.
-    OutputError: a file cannot be written.
+    InputError
+        the format is unknown, the run has no frame yet, or PyVista is not installed.
+    OutputError
+        a file cannot be written.
     """
     if to not in FORMATS:
         raise InputError(f"no format {to!r}; choose one of {', '.join(FORMATS)}")
@@ -90,7 +96,8 @@ def vtk_parts(dataset: xr.Dataset, time: float | None = None) -> "dict[str, pyvi
 
     Raises
     ------
-    InputError: the run has no frame yet, or PyVista is not installed.
+    InputError
+        the run has no frame yet, or PyVista is not installed.
     """
     try:
         import pyvista

@@ -13,7 +13,8 @@ def particles_at(dataset: xr.Dataset, time: float | None = None) -> xr.Dataset:
 
     Raises
     ------
-    InputError: the run has no frame yet, or ``time`` lies outside the run.
+    InputError
+        the run has no frame yet, or ``time`` lies outside the run.
     """
     times = dataset["time"].values
     if not len(times):
@@ -49,11 +50,13 @@ def free_surface(dataset: xr.Dataset, time: float | None = None, *, resolution: 
 
     Parameters
     ----------
-    resolution: width of the columns in m; by default two particle spacings.
+    resolution
+        width of the columns in m; by default two particle spacings.
 
     Returns
     -------
-    ``elevation`` on (x) in 2-D, on (x, y) in 3-D; NaN in dry columns.
+    xr.DataArray
+        ``elevation`` on (x) in 2-D, on (x, y) in 3-D; NaN in dry columns.
     """
     frame = particles_at(dataset, time)
     position = frame["position"].values
@@ -90,12 +93,15 @@ def to_grid(
 
     Parameters
     ----------
-    field: ``pressure``, ``density``, ``speed``, or ``velocity`` (which keeps its dimension ``space``).
-    resolution: grid spacing in m; by default the particle spacing.
+    field
+        ``pressure``, ``density``, ``speed``, or ``velocity`` (which keeps its dimension ``space``).
+    resolution
+        grid spacing in m; by default the particle spacing.
 
     Returns
     -------
-    The field on (y, x), or (z, y, x) in 3-D, with the unit of the field.
+    xr.DataArray
+        The field on (y, x), or (z, y, x) in 3-D, with the unit of the field.
     """
     frame = particles_at(dataset, time)
     if field not in frame:

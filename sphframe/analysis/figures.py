@@ -30,7 +30,8 @@ def figure_class() -> type["Figure"]:
 
     Raises
     ------
-    InputError: matplotlib is not installed.
+    InputError
+        matplotlib is not installed.
     """
     try:
         from matplotlib.figure import Figure
@@ -44,7 +45,8 @@ def new_figure(width: float, height: float, *, dpi: float | None = None) -> Any:
 
     Raises
     ------
-    InputError: matplotlib is not installed.
+    InputError
+        matplotlib is not installed.
     """
     return figure_class()(figsize=(width, height), dpi=dpi, layout="constrained")
 
@@ -63,7 +65,8 @@ def save_figure(figure: "Figure", path: str | os.PathLike[str]) -> None:
 
     Raises
     ------
-    OutputError: the file cannot be written, or the format is unknown.
+    OutputError
+        the file cannot be written, or the format is unknown.
     """
     try:
         figure.savefig(path)

@@ -72,18 +72,26 @@ def animate_run(
 
     Parameters
     ----------
-    dataset: the run, finished or in progress.
-    path: the film, ``.mp4`` or ``.gif``; replaced if it exists.
-    field: ``pressure``, ``speed`` or ``density``.
-    speed: how many times as fast as in reality the film plays, such as 0.5.
-    frames_per_second: plays all frames at this rate, whatever their times are; in place of ``speed``.
-    track: wraps the list of times, such as ``rich.progress.track``.
+    dataset
+        the run, finished or in progress.
+    path
+        the film, ``.mp4`` or ``.gif``; replaced if it exists.
+    field
+        ``pressure``, ``speed`` or ``density``.
+    speed
+        how many times as fast as in reality the film plays, such as 0.5.
+    frames_per_second
+        plays all frames at this rate, whatever their times are; in place of ``speed``.
+    track
+        wraps the list of times, such as ``rich.progress.track``.
 
     Raises
     ------
-    InputError: matplotlib or imageio-ffmpeg is not installed, the suffix of ``path`` or the field is unknown, or the
+    InputError
+        matplotlib or imageio-ffmpeg is not installed, the suffix of ``path`` or the field is unknown, or the
         run has no frame yet.
-    OutputError: the film cannot be written.
+    OutputError
+        the film cannot be written.
     """
     path = Path(path)
     _check_film(path, speed if frames_per_second is None else frames_per_second)
@@ -148,7 +156,8 @@ def film_frames(
 
     Raises
     ------
-    InputError: matplotlib is not installed, the run has no frame, or the field is unknown.
+    InputError
+        matplotlib is not installed, the run has no frame, or the field is unknown.
     """
     field_to_draw(field)
     figure_class()
@@ -164,8 +173,10 @@ class _FilmPicture:
 
     Parameters
     ----------
-    view: limits of x and of the height, m.
-    limits: values at the ends of the colour bar, in the unit of the field.
+    view
+        limits of x and of the height, m.
+    limits
+        values at the ends of the colour bar, in the unit of the field.
     """
 
     def __init__(self, dataset: xr.Dataset, field: str, view: View, limits: tuple[float, float]) -> None:

@@ -25,7 +25,8 @@ def history_panels(dataset: xr.Dataset, reference: Reference = None) -> "list[Ca
 
     Parameters
     ----------
-    reference: one or several series of p/(rho0 g H) over t sqrt(g/H), drawn together with the probes.
+    reference
+        one or several series of p/(rho0 g H) over t sqrt(g/H), drawn together with the probes.
     """
     panels: list[Callable[[Axes], None]] = []
     if "probe_pressure" in dataset:

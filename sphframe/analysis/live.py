@@ -28,13 +28,18 @@ class Look:
 
     Attributes
     ----------
-    status: ``running``, ``completed``, ``stopped``, or ``unreadable`` while the file is missing or damaged.
-    message: why the run stopped, why its file cannot be read, that there is no frame yet, or that nothing was
+    status
+        ``running``, ``completed``, ``stopped``, or ``unreadable`` while the file is missing or damaged.
+    message
+        why the run stopped, why its file cannot be read, that there is no frame yet, or that nothing was
         written for a long time; otherwise empty.
-    facts: data about the run as texts, by name.
-    picture: the latest frame, the series and the energies as a PNG; empty before the first frame. While the file
+    facts
+        data about the run as texts, by name.
+    picture
+        the latest frame, the series and the energies as a PNG; empty before the first frame. While the file
         cannot be read it is the last picture that was drawn.
-    drawn: number of pictures drawn so far.
+    drawn
+        number of pictures drawn so far.
     """
 
     status: str
@@ -49,12 +54,15 @@ class LiveRun:
 
     Parameters
     ----------
-    path: the output file of a run, finished or in progress.
-    field: ``pressure``, ``speed`` or ``density``.
+    path
+        the output file of a run, finished or in progress.
+    field
+        ``pressure``, ``speed`` or ``density``.
 
     Raises
     ------
-    InputError: the file is missing, damaged or of another program, the field is unknown, or matplotlib is missing.
+    InputError
+        the file is missing, damaged or of another program, the field is unknown, or matplotlib is missing.
     """
 
     def __init__(self, path: str | os.PathLike[str], *, field: str = "pressure") -> None:

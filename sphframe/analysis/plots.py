@@ -62,22 +62,32 @@ def plot_run(
 
     Parameters
     ----------
-    dataset: the run, finished or in progress.
-    path: where to save the picture; the suffix chooses the format (.png, .pdf, .svg).
-    field: ``pressure``, ``speed`` or ``density``.
-    times: times in s; by default four that are evenly distributed over the run.
-    reference: one or several series of p/(rho0 g H) over t sqrt(g/H), drawn together with the probes.
-    surface: draw the free surface too: the line on which the particles fill half of the space.
-    width: of the picture, inches; below 10, the times are drawn below each other.
+    dataset
+        the run, finished or in progress.
+    path
+        where to save the picture; the suffix chooses the format (.png, .pdf, .svg).
+    field
+        ``pressure``, ``speed`` or ``density``.
+    times
+        times in s; by default four that are evenly distributed over the run.
+    reference
+        one or several series of p/(rho0 g H) over t sqrt(g/H), drawn together with the probes.
+    surface
+        draw the free surface too: the line on which the particles fill half of the space.
+    width
+        of the picture, inches; below 10, the times are drawn below each other.
 
     Returns
     -------
-    The figure.
+    Figure
+        The figure.
 
     Raises
     ------
-    InputError: matplotlib is not installed, the run has no frame, or the field or a time is unknown.
-    OutputError: the picture cannot be written.
+    InputError
+        matplotlib is not installed, the run has no frame, or the field or a time is unknown.
+    OutputError
+        the picture cannot be written.
     """
     field_to_draw(field)
     figure_class()

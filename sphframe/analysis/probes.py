@@ -14,17 +14,22 @@ def probe_statistics(
 
     Parameters
     ----------
-    dataset: the run.
-    start, stop: the window in s; by default the second half of the run.
-    expected: what each probe should read, in Pa (probes,).
+    dataset
+        the run.
+    start, stop
+        the window in s; by default the second half of the run.
+    expected
+        what each probe should read, in Pa (probes,).
 
     Returns
     -------
-    ``mean``, ``std``, ``min``, ``max`` on (probe), in Pa, and with ``expected`` also ``error`` = mean - expected.
+    xr.Dataset
+        ``mean``, ``std``, ``min``, ``max`` on (probe), in Pa, and with ``expected`` also ``error`` = mean - expected.
 
     Raises
     ------
-    InputError: the run has no probes, or no sample in the window.
+    InputError
+        the run has no probes, or no sample in the window.
     """
     if "probe_pressure" not in dataset:
         raise InputError("this run has no probes: its case declares none")

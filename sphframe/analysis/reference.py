@@ -18,18 +18,23 @@ def read_reference_series(folder: str | os.PathLike[str], name: str, column: int
 
     Parameters
     ----------
-    folder: the user's reference data; sphframe contains none.
-    name: name of the file, without ``.csv``.
-    column: number (the coordinate is 0) or name of the column to read.
+    folder
+        the user's reference data; sphframe contains none.
+    name
+        name of the file, without ``.csv``.
+    column
+        number (the coordinate is 0) or name of the column to read.
 
     Returns
     -------
-    The series, sorted by its coordinate ``t``, without missing values; the header's lines in the attribute ``header``,
-    the columns' names in ``long_name`` of the series and its coordinate.
+    xr.DataArray
+        The series, sorted by its coordinate ``t``, without missing values; the header's lines in the attribute
+        ``header``, the columns' names in ``long_name`` of the series and its coordinate.
 
     Raises
     ------
-    InputError: the folder or the file is missing, or is not such a table.
+    InputError
+        the folder or the file is missing, or is not such a table.
     """
     folder = Path(folder)
     path = folder / f"{name}.csv"
@@ -71,13 +76,16 @@ def references_for(dataset: xr.Dataset, source: str | os.PathLike[str]) -> list[
 
     Parameters
     ----------
-    dataset: the run.
-    source: a file ``NAME.csv``; or a folder, of which each file is read whose name has a probe's name between
+    dataset
+        the run.
+    source
+        a file ``NAME.csv``; or a folder, of which each file is read whose name has a probe's name between
         underscores, such as ``buchner_P1.csv``.
 
     Raises
     ------
-    InputError: the file is missing or no such table, or the folder has no series for a probe of the run.
+    InputError
+        the file is missing or no such table, or the folder has no series for a probe of the run.
     """
     source = Path(source)
     if not source.is_dir():

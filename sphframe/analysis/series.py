@@ -19,13 +19,17 @@ def running_mean(times: ArrayLike, values: ArrayLike, window: float, step: float
 
     Parameters
     ----------
-    times, values: (n,), with increasing times.
-    window: width W, in the unit of the times.
-    step: distance between the times of the result, in the same unit.
+    times, values
+        (n,), with increasing times.
+    window
+        width W, in the unit of the times.
+    step
+        distance between the times of the result, in the same unit.
 
     Returns
     -------
-    The mean over the coordinate ``t``; empty for fewer than two samples.
+    xr.DataArray
+        The mean over the coordinate ``t``; empty for fewer than two samples.
 
     Examples
     --------
@@ -47,16 +51,19 @@ def series_error(series: xr.DataArray, reference: xr.DataArray) -> dict[str, flo
 
     Parameters
     ----------
-    series, reference: one-dimensional, over coordinates that mean the same (both in s, or both dimensionless).
+    series, reference
+        one-dimensional, over coordinates that mean the same (both in s, or both dimensionless).
 
     Returns
     -------
-    ``rms``, ``bias`` (mean of series - reference) and ``largest`` difference, in the unit of the series; the number
-    of ``points`` compared, and the ``correlation``, NaN where either does not vary.
+    dict[str, float]
+        ``rms``, ``bias`` (mean of series - reference) and ``largest`` difference, in the unit of the series; the number
+        of ``points`` compared, and the ``correlation``, NaN where either does not vary.
 
     Raises
     ------
-    InputError: fewer than two reference points lie within the series.
+    InputError
+        fewer than two reference points lie within the series.
 
     Examples
     --------

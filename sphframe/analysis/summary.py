@@ -18,23 +18,24 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
 
     Returns
     -------
-    A dictionary with, in SI units:
+    dict[str, Any]
+        A dictionary with, in SI units:
 
-    - ``case``, ``wall_treatment``, ``interpolator``, ``hydrostatic_lift``, ``particle_spacing``, ``particles``,
-      ``ghosts``, ``completed``;
-    - ``time``, ``steps``, ``wall_clock`` and ``processor_time`` since the run started, output included;
-      ``steps_per_second`` and ``particle_updates_per_second`` of wall-clock time; ``waited``: whether the run had to
-      wait for processors or the disk, as its threads together got less than 90 % of one processor;
-    - ``work_of_bodies``: work that bodies have done on the fluid, J, in 2-D per metre of width; 0 without bodies;
-    - ``energy_excess``: largest total energy, without that work, over its initial value, minus 1; ``mass_drift``:
-      largest relative change of the mass;
-    - ``particles_outside``: largest number of particles behind walls in a frame;
-    - ``particles_removed``: number of particles that left the domain; ``densities_outside``: largest number in a sample
-      with a density outside the band of the guards;
-    - ``statuses``: share of each interpolation status, over all ghosts and samples;
-    - ``peaks``: largest ``pressure`` at each probe and its ``time``, also divided by rho0 g H and sqrt(H/g);
-    - ``front_arrival``: see :func:`front_arrival`; None where the case has no front;
-    - ``errors``: of a case with an exact solution, see :meth:`sphframe.cases.ExactCase.errors`.
+        - ``case``, ``wall_treatment``, ``interpolator``, ``hydrostatic_lift``, ``particle_spacing``, ``particles``,
+          ``ghosts``, ``completed``;
+        - ``time``, ``steps``, ``wall_clock`` and ``processor_time`` since the run started, output included;
+          ``steps_per_second`` and ``particle_updates_per_second`` of wall-clock time; ``waited``: whether the run had
+          to wait for processors or the disk, as its threads together got less than 90 % of one processor;
+        - ``work_of_bodies``: work that bodies have done on the fluid, J, in 2-D per metre of width; 0 without bodies;
+        - ``energy_excess``: largest total energy, without that work, over its initial value, minus 1; ``mass_drift``:
+          largest relative change of the mass;
+        - ``particles_outside``: largest number of particles behind walls in a frame;
+        - ``particles_removed``: number of particles that left the domain; ``densities_outside``: largest number in a
+          sample with a density outside the band of the guards;
+        - ``statuses``: share of each interpolation status, over all ghosts and samples;
+        - ``peaks``: largest ``pressure`` at each probe and its ``time``, also divided by rho0 g H and sqrt(H/g);
+        - ``front_arrival``: see :func:`front_arrival`; None where the case has no front;
+        - ``errors``: of a case with an exact solution, see :meth:`sphframe.cases.ExactCase.errors`.
     """
     result = _of_the_case(dataset) | {
         "time": 0.0,
@@ -136,9 +137,15 @@ def concerns(*, outside: int, removed: int, densities: int, statuses: ArrayLike)
 
     Parameters
     ----------
-    outside: particles behind walls; ``removed``: particles that left the domain; ``densities``: particles with a
+    outside
+        particles behind walls.
+    removed
+        particles that left the domain.
+    densities
+        particles with a
         density outside the band of the guards.
-    statuses: (statuses,) number of ghosts with each :class:`sphframe.Status`.
+    statuses
+        (statuses,) number of ghosts with each :class:`sphframe.Status`.
 
     Examples
     --------

@@ -32,18 +32,24 @@ def plot_walls(case: Case, path: str | os.PathLike[str] | None = None, *, number
 
     Parameters
     ----------
-    case: what to draw.
-    path: where to save the picture; the suffix chooses the format (.png, .pdf, .svg).
-    numbers: whether the filling is drawn and the worst place is named.
+    case
+        what to draw.
+    path
+        where to save the picture; the suffix chooses the format (.png, .pdf, .svg).
+    numbers
+        whether the filling is drawn and the worst place is named.
 
     Returns
     -------
-    The figure.
+    Figure
+        The figure.
 
     Raises
     ------
-    InputError: matplotlib is not installed.
-    OutputError: the picture cannot be written.
+    InputError
+        matplotlib is not installed.
+    OutputError
+        the picture cannot be written.
     """
     figure_class()
     scene = placed_scene(case)

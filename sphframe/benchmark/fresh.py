@@ -23,7 +23,8 @@ def run_fresh(code: str, environment: Mapping[str, str] | None = None) -> Fresh:
 
     Raises
     ------
-    SimulationError: the process fails.
+    SimulationError
+        the process fails.
     """
     began = time.perf_counter()
     done = subprocess.run(

@@ -23,9 +23,12 @@ class MemoryCost:
 
     Attributes
     ----------
-    arrays: of all arrays of the system, the neighbour lists, the boundary, and the rest of the simulation.
-    total: their sum.
-    resident: growth of the process's peak resident set while it sets up and makes some steps, measured in a new
+    arrays
+        of all arrays of the system, the neighbour lists, the boundary, and the rest of the simulation.
+    total
+        their sum.
+    resident
+        growth of the process's peak resident set while it sets up and makes some steps, measured in a new
         process; None where the operating system does not report it. It is inaccurate for small cases, whose memory
         is small compared with that of any process.
     """

@@ -22,8 +22,10 @@ class BareLoops:
 
     Attributes
     ----------
-    order: (n,) numbers of the fluid particles in spatial order; row i holds the particle ``order[i]``.
-    gradient: (n, 2) density gradient, kg/m^4; ``rates`` (n, 3) accelerations, m/s^2, and density rate, kg/(m^3 s).
+    order
+        (n,) numbers of the fluid particles in spatial order; row i holds the particle ``order[i]``.
+    gradient
+        (n, 2) density gradient, kg/m^4; ``rates`` (n, 3) accelerations, m/s^2, and density rate, kg/(m^3 s).
     """
 
     def __init__(self, simulation: Simulation) -> None:

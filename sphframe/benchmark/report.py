@@ -71,7 +71,8 @@ def check_request(particles: Sequence[int], threads: Sequence[int], only: Collec
 
     Raises
     ------
-    InputError: a number is out of bounds or a section is unknown.
+    InputError
+        a number is out of bounds or a section is unknown.
     """
     for count in particles:
         if count < _FEWEST:
@@ -97,15 +98,21 @@ def bench(
 
     Parameters
     ----------
-    particles: numbers of fluid particles of the dam break, roughly.
-    threads: numbers of threads; by default 1 and, where there are as many, 2.
-    only: some of :data:`SECTIONS`; by default all, with developed flow up to 50,000 particles.
-    repeats: samples of each time.
-    tell: called with the name of the present measurement and the part of it that is done, if known.
+    particles
+        numbers of fluid particles of the dam break, roughly.
+    threads
+        numbers of threads; by default 1 and, where there are as many, 2.
+    only
+        some of :data:`SECTIONS`; by default all, with developed flow up to 50,000 particles.
+    repeats
+        samples of each time.
+    tell
+        called with the name of the present measurement and the part of it that is done, if known.
 
     Raises
     ------
-    InputError: as :func:`check_request` does.
+    InputError
+        as :func:`check_request` does.
     """
     check_request(particles, threads, only)
     before, other = numba.get_num_threads(), OtherWork()

@@ -32,8 +32,12 @@ class StartUp:
 
     Attributes
     ----------
-    libraries: import of NumPy and Numba; ``sphframe``: import of sphframe after them.
-    first_compile: from nothing imported to the end of the first step of the dam break, with an empty compiler cache;
+    libraries
+        import of NumPy and Numba.
+    sphframe
+        import of sphframe after them.
+    first_compile
+        from nothing imported to the end of the first step of the dam break, with an empty compiler cache;
         ``cached``: the same with a full cache; ``cached_process``: ``cached`` with the start and the end of Python.
     """
 

@@ -32,13 +32,27 @@ class StepCost:
 
     Attributes
     ----------
-    evaluations: of the rates per step; ``steps``: per window; ``builds``: of the neighbour lists per window.
-    whole: one step with its share of neighbour searches and output, the sum of the ``parts``; averages over a
+    evaluations
+        of the rates per step.
+    steps
+        per window.
+    builds
+        of the neighbour lists per window.
+    whole
+        one step with its share of neighbour searches and output, the sum of the ``parts``; averages over a
         window of steps.
-    rate: fluid-particle right-hand sides per second, of the whole.
-    list_build: building the lists once; ``sample``, ``frame``: writing one sample, one frame.
-    evaluation: all rates once, ghosts included, with its share of neighbour searches.
-    bare_gradient, bare_rates: the reference loops; ``ratio``: evaluation over the sum of both; None in 3-D.
+    rate
+        fluid-particle right-hand sides per second, of the whole.
+    list_build
+        building the lists once.
+    sample, frame
+        writing one sample, one frame.
+    evaluation
+        all rates once, ghosts included, with its share of neighbour searches.
+    bare_gradient, bare_rates
+        the reference loops; None in 3-D.
+    ratio
+        evaluation over the sum of both; None in 3-D.
     """
 
     dimension: int

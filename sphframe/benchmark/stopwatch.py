@@ -19,11 +19,15 @@ class Stopwatch:
 
     Parameters
     ----------
-    clock: returns a time in ns.
+    clock
+        returns a time in ns.
 
     Attributes
     ----------
-    spent: time of each part, ns; ``calls``: number of calls of each watched method, by its name.
+    spent
+        time of each part, ns.
+    calls
+        number of calls of each watched method, by its name.
     """
 
     def __init__(self, clock: Callable[[], int] = time.perf_counter_ns) -> None:

@@ -38,14 +38,18 @@ class ForceSeries(BodyForce):
 
     Attributes
     ----------
-    path: of a file with one line for each time: time (s), then one component (m/s^2) for each dimension, separated by
+    path
+        of a file with one line for each time: time (s), then one component (m/s^2) for each dimension, separated by
         commas, semicolons or blanks, ``#`` before comments.
-    table: the same numbers, in place of a file: ``[[0.0, 0.0, 0.0], [1.0, 0.5, 0.0]]``.
-    contents: text of the file, which is read when a case is loaded and kept with the case.
+    table
+        the same numbers, in place of a file: ``[[0.0, 0.0, 0.0], [1.0, 0.5, 0.0]]``.
+    contents
+        text of the file, which is read when a case is loaded and kept with the case.
 
     Raises
     ------
-    InputError: when the file cannot be read, is not such a table, or its times do not increase.
+    InputError
+        when the file cannot be read, is not such a table, or its times do not increase.
     """
 
     path: Path | None = None

@@ -39,9 +39,12 @@ class DisplacementSeries(RigidBody):
 
     Attributes
     ----------
-    path: of the file; a case file looks for it in its own folder first.
-    centre: of rotation, m.
-    interpolation: between the lines, never beyond two neighbouring values, and at rest where these are equal.
+    path
+        of the file; a case file looks for it in its own folder first.
+    centre
+        of rotation, m.
+    interpolation
+        between the lines, never beyond two neighbouring values, and at rest where these are equal.
 
         ``"monotone"``: cubic Hermite polynomials with the slopes of Fritsch and Butland (PCHIP), zero at both ends.
         The velocity is continuous; the acceleration, and with it the pressure on the wall, is linear between the times
@@ -49,16 +52,19 @@ class DisplacementSeries(RigidBody):
 
         ``"linear"``: the velocity is constant between the times and jumps at them, without an impulse on the fluid's
         pressure: the acceleration is taken as zero.
-    columns: what the columns hold, in their order, with their units, such as ``{time = "s", x = "mm", angle = "deg"}``.
+    columns
+        what the columns hold, in their order, with their units, such as ``{time = "s", x = "mm", angle = "deg"}``.
         Names: time; x, y, z; angle (2-D); one of rx, ry, rz (3-D). Units: s, ms, min;
         m, cm, mm; rad, deg. By default those of a comment ``# time (s), x (m)`` above the numbers, or else time, x and
         y in SI units.
-    contents: text of the file. It is read from ``path`` when a case is loaded, and kept with the case in the output
+    contents
+        text of the file. It is read from ``path`` when a case is loaded, and kept with the case in the output
         file, so that a resumed or repeated run moves as the first one did even if the file has changed since.
 
     Raises
     ------
-    InputError: when the file cannot be read, is not such a table, or its times do not increase.
+    InputError
+        when the file cannot be read, is not such a table, or its times do not increase.
 
     Source: F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984), doi:10.1137/0905021.
     """
@@ -110,7 +116,8 @@ def with_text(options: Mapping[str, Any], folder: Path) -> dict[str, Any]:
 
     Raises
     ------
-    InputError: when the file cannot be read.
+    InputError
+        when the file cannot be read.
     """
     if options.get("contents") is not None or not isinstance(options.get("path"), str | Path):
         return dict(options)
@@ -123,7 +130,8 @@ def read_text(path: Path) -> str:
 
     Raises
     ------
-    InputError: when it cannot be read.
+    InputError
+        when it cannot be read.
     """
     try:
         return path.read_text(encoding="utf-8-sig")

@@ -33,16 +33,26 @@ class Free(RigidBody):
 
     Attributes
     ----------
-    mass: m, kg/m in 2-D, kg in 3-D.
-    inertia: I about the centre of mass, as drawn: kg m in 2-D; in 3-D kg m^2, three moments about axes parallel to
+    mass
+        m, kg/m in 2-D, kg in 3-D.
+    inertia
+        I about the centre of mass, as drawn: kg m in 2-D; in 3-D kg m^2, three moments about axes parallel to
         those of space, or a matrix.
-    centre: centre of mass as drawn, m.
-    gravity: m/s^2, downwards along the last axis or a vector, in place of that of the case.
-    density: kg/m^3, in place of the mass.
-    hinge: fixed point about which the body turns, as drawn, m.
-    held: coordinates that do not change: x, y, angle in 2-D; x, y, z, rx, ry, rz in 3-D.
-    initial_velocity: in generalised coordinates, see :class:`Motion`.
+    centre
+        centre of mass as drawn, m.
+    gravity
+        m/s^2, downwards along the last axis or a vector, in place of that of the case.
+    density
+        kg/m^3, in place of the mass.
+    hinge
+        fixed point about which the body turns, as drawn, m.
+    held
+        coordinates that do not change: x, y, angle in 2-D; x, y, z, rx, ry, rz in 3-D.
+    initial_velocity
+        in generalised coordinates, see :class:`Motion`.
 
+    Notes
+    -----
     The ghosts' pressure contains the wall's acceleration, and the acceleration follows from the pressure of the
     evaluation before. This iteration converges when the body is heavier than the water whose pressure responds within
     one evaluation. That is not the added mass of the body, which acts only after sound waves have passed, but a layer

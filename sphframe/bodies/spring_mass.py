@@ -20,8 +20,15 @@ class SpringMass(RigidBody):
 
     Attributes
     ----------
-    mass: m, kg; ``stiffness``: k, N/m; ``threshold``: F_threshold, N; all per metre of width in 2-D.
+    mass
+        m, kg.
+    stiffness
+        k, N/m.
+    threshold
+        F_threshold, N; all per metre of width in 2-D.
 
+    Notes
+    -----
     Departs from the paper: Eq. 26 as corrected (the threshold is subtracted only while it is exceeded), and the
     velocity is set to zero at the stop, which its Eq. 28 omits: otherwise the wall at rest would keep a velocity.
 

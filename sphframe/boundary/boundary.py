@@ -29,22 +29,39 @@ class Boundary:
 
     Attributes
     ----------
-    position, mirror: (g, dim) ghosts and mirror points at present, m.
-    foot: (g, dim) the wall's point next to each ghost, m; ``normal`` (g, dim) unit vector from there to the ghost.
-    depth: (g,) of each ghost behind its foot, m; ``height`` (g,) of its evaluation point above the wall, at least a
+    position, mirror
+        (g, dim) ghosts and mirror points at present, m.
+    foot
+        (g, dim) the wall's point next to each ghost, m; ``normal`` (g, dim) unit vector from there to the ghost.
+    depth
+        (g,) of each ghost behind its foot, m; ``height`` (g,) of its evaluation point above the wall, at least a
         tenth of it, m.
-    points: (g, dim) where the method evaluates the fluid; ``lifts`` (g, dim) from there to the ghosts.
-    reflection: (g, dim, dim) maps the fluid's velocity relative to the wall to that of the ghost.
-    velocity, acceleration: (g, dim) of the wall at each ghost; ``driving`` (g, dim): rho0 (f - a_wall), N/m^3.
-    volume: (g,) of each ghost, m^dim; ``groups``: the walls of each body, ``group_body`` its index, -1 at rest.
-    wall: (g,) index of each ghost's wall; ``body`` (g,) index of its body, -1 at rest.
-    wall_body: (walls,) index of each wall's body, -1 at rest; ``centres`` (bodies, dim) as drawn, m.
-    statuses: (g,) :class:`Status` of the last filling.
-    wall_state: (g,) what the treatment advances; ``full`` (g,) filling of the evaluation point within the fluid.
-    arrays: what compiled loops read of the ghosts; ``images`` of the fluid, for treatments with images.
-    solid_contacts: puts particles back on walls of triangles.
-    sides: the sides of walls, where a wall is thin; else None.
-    periods: in which the ghosts repeat themselves.
+    points
+        (g, dim) where the method evaluates the fluid; ``lifts`` (g, dim) from there to the ghosts.
+    reflection
+        (g, dim, dim) maps the fluid's velocity relative to the wall to that of the ghost.
+    velocity, acceleration
+        (g, dim) of the wall at each ghost; ``driving`` (g, dim): rho0 (f - a_wall), N/m^3.
+    volume
+        (g,) of each ghost, m^dim.
+    groups
+        the walls of each body, ``group_body`` its index, -1 at rest.
+    wall
+        (g,) index of each ghost's wall; ``body`` (g,) index of its body, -1 at rest.
+    wall_body
+        (walls,) index of each wall's body, -1 at rest; ``centres`` (bodies, dim) as drawn, m.
+    statuses
+        (g,) :class:`Status` of the last filling.
+    wall_state
+        (g,) what the treatment advances; ``full`` (g,) filling of the evaluation point within the fluid.
+    arrays
+        what compiled loops read of the ghosts; ``images`` of the fluid, for treatments with images.
+    solid_contacts
+        puts particles back on walls of triangles.
+    sides
+        the sides of walls, where a wall is thin; else None.
+    periods
+        in which the ghosts repeat themselves.
     """
 
     _force: Array | None = None

@@ -29,10 +29,14 @@ class Filling:
 
     Parameters
     ----------
-    interpolator, kernel: the method, None where the treatment needs none, and the kernel.
-    parts: the compiled parts of the loops, by name; ``walls`` the functions of the treatment.
-    velocity_interpolator: another method for the velocities.
-    tension: see :mod:`sphframe.boundary.ghosts`; ``lowest_pressure``, Pa, of bounded tension.
+    interpolator, kernel
+        the method, None where the treatment needs none, and the kernel.
+    parts
+        the compiled parts of the loops, by name; ``walls`` the functions of the treatment.
+    velocity_interpolator
+        another method for the velocities.
+    tension
+        see :mod:`sphframe.boundary.ghosts`; ``lowest_pressure``, Pa, of bounded tension.
     """
 
     def __init__(

@@ -62,10 +62,14 @@ class Scratch(NamedTuple):
 
     Attributes
     ----------
-    offsets: (chunks, capacity, dim), m.
-    columns: (chunks, 4, capacity): distances, kernel values, volumes and weights.
-    members: (chunks, capacity), row of each neighbour.
-    lift: (chunks, dim), m.
+    offsets
+        (chunks, capacity, dim), m.
+    columns
+        (chunks, 4, capacity): distances, kernel values, volumes and weights.
+    members
+        (chunks, capacity), row of each neighbour.
+    lift
+        (chunks, dim), m.
     """
 
     offsets: Array

@@ -34,10 +34,14 @@ class ParticleCloud:
 
     Attributes
     ----------
-    positions: (n, dim), m, with dim 2 or 3.
-    volumes: (n,), m^dim, positive; one number stands for all.
-    smoothing_length: h, m; the cut-off radius is ``kernel.support`` times h.
-    kernel: the name of a kernel or a kernel.
+    positions
+        (n, dim), m, with dim 2 or 3.
+    volumes
+        (n,), m^dim, positive; one number stands for all.
+    smoothing_length
+        h, m; the cut-off radius is ``kernel.support`` times h.
+    kernel
+        the name of a kernel or a kernel.
     """
 
     positions: ArrayLike
@@ -60,23 +64,35 @@ def operator(
 
     Parameters
     ----------
-    interpolator: the method.
-    points: (m, dim) or (dim,), m: evaluation points, dim 2 or 3.
-    positions: (n, dim), m: fluid particles; ``volumes``: (n,) or one number, m^dim: V_j = m_j / rho_j.
-    smoothing_length: h, m; ``kernel``: the name of a kernel or a kernel.
-    lift: (m, dim) or (dim,), m: from each point to its ghost, for a method that extrapolates; zero by default. For a
+    interpolator
+        the method.
+    points
+        (m, dim) or (dim,), m: evaluation points, dim 2 or 3.
+    positions
+        (n, dim), m: fluid particles.
+    volumes
+        (n,) or one number, m^dim: V_j = m_j / rho_j.
+    smoothing_length
+        h, m.
+    kernel
+        the name of a kernel or a kernel.
+    lift
+        (m, dim) or (dim,), m: from each point to its ghost, for a method that extrapolates; zero by default. For a
         method that evaluates at the ghost along the wall's normal, this unit normal.
 
     Returns
     -------
-    Phi: csr_array (m, n), dimensionless, with an entry for each particle nearer than the cut-off, zeros included;
+    Phi : csr_array
+        (m, n), dimensionless, with an entry for each particle nearer than the cut-off, zeros included;
         rows of points where the method returned TOO_FEW or SINGULAR hold the weights of its fallback, rows of dry
         points are empty.
-    statuses: (m,) integers, see :class:`sphframe.Status`.
+    statuses : Integers
+        (m,), see :class:`sphframe.Status`.
 
     Raises
     ------
-    InputError: when a shape, a dimension or a number is not as above.
+    InputError
+        when a shape, a dimension or a number is not as above.
 
     Examples
     --------

@@ -31,8 +31,10 @@ class WallSides:
 
     Attributes
     ----------
-    sight: the sides at present, and the charts of the ghosts.
-    passable: (g,) whether each ghost lies behind the continuation of a wall beyond its end.
+    sight
+        the sides at present, and the charts of the ghosts.
+    passable
+        (g,) whether each ghost lies behind the continuation of a wall beyond its end.
     """
 
     def __init__(self, sides: Sides, body: IntArray, centres: Array, spacing: float, reach: float) -> None:

@@ -23,7 +23,8 @@ def weights_functions(
 
     Raises
     ------
-    BrokenPluginError: when one is not a function of the seven arguments.
+    BrokenPluginError
+        when one is not a function of the seven arguments.
     """
     makers = method.point_weights, method.fallback_weights
     made = [checked_function(method, maker.__name__, maker(kernel, dim), _ARGUMENTS) for maker in makers]
@@ -35,15 +36,18 @@ def try_weights(method: BoundaryInterpolator, kernel: CompiledKernel, dim: int, 
 
     Parameters
     ----------
-    ratio: smoothing length over particle spacing.
+    ratio
+        smoothing length over particle spacing.
 
     Returns
     -------
-    What it raised, if a compiled function need not fail there: what Numba compiles may not run in plain Python.
+    str | None
+        What it raised, if a compiled function need not fail there: what Numba compiles may not run in plain Python.
 
     Raises
     ------
-    BrokenPluginError: when it writes or reads beyond an array, or returns something else than a whole number.
+    BrokenPluginError
+        when it writes or reads beyond an array, or returns something else than a whole number.
     """
     parts: list[Any] = [getattr(part, "py_func", part) for part in kernel]
     bare = CompiledKernel(*parts)

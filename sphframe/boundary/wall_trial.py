@@ -43,7 +43,8 @@ def checked_parts(treatment: WallTreatment, context: WallContext) -> WallParts:
 
     Raises
     ------
-    BrokenPluginError: when one does not.
+    BrokenPluginError
+        when one does not.
     """
     parts: Any = treatment.parts(context)
     if not isinstance(parts, WallParts):

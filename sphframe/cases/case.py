@@ -55,7 +55,8 @@ class Case(BaseModel, ABC):
 
     Raises
     ------
-    InputError: one line for every parameter that is unknown, missing or outside its bounds, when the case is made.
+    InputError
+        one line for every parameter that is unknown, missing or outside its bounds, when the case is made.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
@@ -161,7 +162,8 @@ class Case(BaseModel, ABC):
 
         Raises
         ------
-        InputError: when it has another number of components.
+        InputError
+            when it has another number of components.
         """
         try:
             return gravity_vector(self.gravity, self.dimension)

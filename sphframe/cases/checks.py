@@ -37,13 +37,16 @@ def check_case(case: Case) -> None:
 
     Warns
     -----
-    CaseWarning: few particles over the depth, a time step above the stability limit, a sound speed that makes the
+    CaseWarning
+        few particles over the depth, a time step above the stability limit, a sound speed that makes the
         water too compressible.
 
     Raises
     ------
-    InputError: when parameters contradict each other; the message has one line for each error.
-    PluginError: when the only error is in a component.
+    InputError
+        when parameters contradict each other; the message has one line for each error.
+    PluginError
+        when the only error is in a component.
     """
     errors = _component_errors(case)
     if not errors:

@@ -124,12 +124,15 @@ def connected_extent(coordinate: Array, gap: float) -> float:
 
     Parameters
     ----------
-    coordinate: distances of the particles (n,), in m.
-    gap: widest gap that is bridged, in m; also that from zero to the first particle.
+    coordinate
+        distances of the particles (n,), in m.
+    gap
+        widest gap that is bridged, in m; also that from zero to the first particle.
 
     Returns
     -------
-    The distance of the last particle before the first wide gap, in m; 0 where nothing is connected to zero.
+    float
+        The distance of the last particle before the first wide gap, in m; 0 where nothing is connected to zero.
 
     Examples
     --------

@@ -25,11 +25,21 @@ class WaterColumn:
 
     Attributes
     ----------
-    height, length: H and L, m; ``reference_density``: rho0, kg/m^3; ``gravity``: g, m/s^2; ``sound_speed``: c0, m/s.
-    terms: largest number of terms that are summed. Away from the bed the sum ends once exp(-lambda_n y) is below
+    height, length
+        H and L, m.
+    reference_density
+        rho0, kg/m^3.
+    gravity
+        g, m/s^2.
+    sound_speed
+        c0, m/s.
+    terms
+        largest number of terms that are summed. Away from the bed the sum ends once exp(-lambda_n y) is below
         round-off. On the bed itself the error of the pressure is largest near the corner (L, 0), about
         2 L / (pi^2 terms) rho0 g.
 
+    Notes
+    -----
     Departs from the paper: Eq. 24 prints sin(lambda_n x) for sin(lambda_n L). Its last factor
     L/2 + sin(2 lambda_n L) / (4 lambda_n) is L/2, since 2 lambda_n L is an odd multiple of pi. The hyperbolic functions
     overflow near n = 450: their ratios are evaluated by decaying exponentials.

@@ -19,10 +19,14 @@ class Benchmark:
 
     Attributes
     ----------
-    score: name of the error, in :meth:`ExactCase.errors`, by which methods are ranked.
-    isolates: what the case isolates, in a sentence.
-    spacings: particle spacings, m, the coarsest first; ``sphframe rank --quick`` uses the coarsest alone.
-    parameters: further parameters of the case.
+    score
+        name of the error, in :meth:`ExactCase.errors`, by which methods are ranked.
+    isolates
+        what the case isolates, in a sentence.
+    spacings
+        particle spacings, m, the coarsest first; ``sphframe rank --quick`` uses the coarsest alone.
+    parameters
+        further parameters of the case.
     """
 
     score: str
@@ -46,7 +50,8 @@ class ExactCase(Case):
 
         Parameters
         ----------
-        dataset: a run of this case, with at least one frame and sample.
+        dataset
+            a run of this case, with at least one frame and sample.
         """
 
     def measured(self, dataset: "xr.Dataset") -> "xr.Dataset":

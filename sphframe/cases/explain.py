@@ -18,8 +18,10 @@ def explain(error: ValidationError, model: type[BaseModel]) -> str:
 
     Parameters
     ----------
-    error: what pydantic found.
-    model: the class of the case that was to be made.
+    error
+        what pydantic found.
+    model
+        the class of the case that was to be made.
     """
     problems = list(dict.fromkeys(_problems(error, model)))
     title = model.__name__

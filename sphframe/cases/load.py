@@ -28,21 +28,29 @@ def load_case(
 
     Parameters
     ----------
-    source: the name of an installed case; a path that ends in ``.toml``, a case file (see ``read_toml``); a path
+    source
+        the name of an installed case; a path that ends in ``.toml``, a case file (see ``read_toml``); a path
         that ends in ``.nc``, an output of sphframe whose run is to be repeated; or a case.
-    preset: name of one of the case's presets.
-    trusted: whether a file may name components as ``module:attribute``, whose code is then imported.
-    overrides: parameters by name, ``interpolator.mu`` for an option of a component or any other value in a table.
+    preset
+        name of one of the case's presets.
+    trusted
+        whether a file may name components as ``module:attribute``, whose code is then imported.
+    overrides
+        parameters by name, ``interpolator.mu`` for an option of a component or any other value in a table.
 
+    Notes
+    -----
     Where the same parameter is given twice, overrides come before the preset, and the preset before the source.
 
     A file is data: nothing in it is executed, and it names components by their installed names only.
 
     Raises
     ------
-    InputError: when a parameter is unknown, missing, of the wrong type, outside its bounds, or contradicts another;
+    InputError
+        when a parameter is unknown, missing, of the wrong type, outside its bounds, or contradicts another;
         when a file cannot be read, or names a component as ``module:attribute``.
-    PluginError: when the case or a component is not installed or broken.
+    PluginError
+        when the case or a component is not installed or broken.
 
     Examples
     --------
@@ -124,7 +132,8 @@ def read_toml(path: str | Path) -> tuple[str, str | None, dict[str, Any]]:
 
     Raises
     ------
-    InputError: when the file does not exist, is not TOML, or its ``case`` or ``preset`` is not a text.
+    InputError
+        when the file does not exist, is not TOML, or its ``case`` or ``preset`` is not a text.
     """
     path = Path(path)
     try:

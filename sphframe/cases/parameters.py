@@ -34,7 +34,8 @@ class Component(BaseModel):
 
         Raises
         ------
-        InputError, PluginError: as :func:`sphframe.registry.create` does.
+        InputError, PluginError
+            as :func:`sphframe.registry.create` does.
         """
         return create(kind, self.name, **self.options)
 

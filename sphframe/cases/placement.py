@@ -14,8 +14,10 @@ def placed_scene(case: Case) -> Scene:
 
     Raises
     ------
-    InputError: when a body contradicts the case; the message names the body.
-    BrokenPluginError: when the case returns no scene.
+    InputError
+        when a body contradicts the case; the message names the body.
+    BrokenPluginError
+        when the case returns no scene.
     """
     scene = case.scene()
     if not isinstance(scene, Scene):
@@ -29,7 +31,8 @@ def placed_force(case: Case) -> BodyForce | None:
 
     Raises
     ------
-    InputError, PluginError: when it cannot be made, or contradicts the case.
+    InputError, PluginError
+        when it cannot be made, or contradicts the case.
     """
     chosen = case.acceleration
     if chosen.name == "uniform" and not any(chosen.options.get("vector", ())):

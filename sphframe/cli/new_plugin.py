@@ -33,23 +33,32 @@ def new_plugin(
 
     Parameters
     ----------
-    name: name of the component, as cases choose it: lower-case words joined by hyphens.
-    kind: :data:`~sphframe.cli.plugin_template.KINDS` names those known.
-    part: of a wall treatment, the function with which it starts, one of
+    name
+        name of the component, as cases choose it: lower-case words joined by hyphens.
+    kind
+        :data:`~sphframe.cli.plugin_template.KINDS` names those known.
+    part
+        of a wall treatment, the function with which it starts, one of
         :data:`~sphframe.cli.plugin_template.PARTS`; by default ``seen``.
-    folder: where the distribution's folder ``sphframe-NAME`` is made.
-    licence: :data:`~sphframe.cli.plugin_template.LICENCES` names those known.
-    author: named in pyproject.toml and in the licence.
+    folder
+        where the distribution's folder ``sphframe-NAME`` is made.
+    licence
+        :data:`~sphframe.cli.plugin_template.LICENCES` names those known.
+    author
+        named in pyproject.toml and in the licence.
 
     Returns
     -------
-    The distribution's folder.
+    Path
+        The distribution's folder.
 
     Raises
     ------
-    InputError: when the name is not of that form, is taken or cannot name a class; when kind, part or licence are
+    InputError
+        when the name is not of that form, is taken or cannot name a class; when kind, part or licence are
         unknown; or when the author is not one line of text.
-    OutputError: when the folder exists already, or cannot be written.
+    OutputError
+        when the folder exists already, or cannot be written.
     """
     _check(name, kind, part, licence, author)
     root = folder / f"sphframe-{name}"

@@ -25,7 +25,8 @@ class ProgressDisplay:
 
     Parameters
     ----------
-    console: where the display is printed.
+    console
+        where the display is printed.
     """
 
     def __init__(self, console: Console) -> None:

@@ -17,7 +17,8 @@ def read_assignments(assignments: Iterable[str], options: Mapping[str, str | Non
 
     Raises
     ------
-    InputError: when a text is not an assignment, or a parameter is given twice.
+    InputError
+        when a text is not an assignment, or a parameter is given twice.
 
     Examples
     --------

@@ -69,18 +69,24 @@ def verify(
 
     Parameters
     ----------
-    names: as for :func:`sphframe.testing.verify`; all interpolation methods and wall treatments by default.
-    as_json, as_markdown: print JSON, or tables in Markdown, in place of tables of text.
-    order: measure orders of convergence near walls instead, see :func:`sphframe.testing.measure_order`.
-    junit: where the results are also written as JUnit XML.
+    names
+        as for :func:`sphframe.testing.verify`; all interpolation methods and wall treatments by default.
+    as_json, as_markdown
+        print JSON, or tables in Markdown, in place of tables of text.
+    order
+        measure orders of convergence near walls instead, see :func:`sphframe.testing.measure_order`.
+    junit
+        where the results are also written as JUnit XML.
 
     Returns
     -------
-    The exit code: 1 when a component violates its declared traits, 0 otherwise.
+    int
+        The exit code: 1 when a component violates its declared traits, 0 otherwise.
 
     Raises
     ------
-    InputError: when the packages that the suite needs are not installed, or both forms are asked for.
+    InputError
+        when the packages that the suite needs are not installed, or both forms are asked for.
     """
     if as_json and as_markdown:
         raise InputError("--json and --markdown exclude each other: choose one")

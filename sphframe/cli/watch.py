@@ -20,12 +20,15 @@ class WatchServer(ThreadingHTTPServer):
 
     Parameters
     ----------
-    run: the run to show.
-    port: port of the page; 0 for any free one.
+    run
+        the run to show.
+    port
+        port of the page; 0 for any free one.
 
     Raises
     ------
-    InputError: the port cannot be used.
+    InputError
+        the port cannot be used.
     """
 
     daemon_threads = True

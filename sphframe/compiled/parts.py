@@ -14,7 +14,8 @@ def checked_function(owner: object, maker: str, function: Any, arguments: Sequen
 
     Raises
     ------
-    BrokenPluginError: when it is not a function of the ``arguments``.
+    BrokenPluginError
+        when it is not a function of the ``arguments``.
     """
     plain = getattr(function, "py_func", function)
     where = f"{type(owner).__name__}.{maker}"

@@ -34,14 +34,18 @@ def specialise(
 
     Parameters
     ----------
-    template: a function of a module that uses the names in ``parts`` as globals.
-    parts: functions (compiled here when they are plain Python) and constants (numbers, strings, booleans, tuples).
-    parallel: whether ``numba.prange`` in the template runs on several threads. While Numba uses one thread, the loop is
+    template
+        a function of a module that uses the names in ``parts`` as globals.
+    parts
+        functions (compiled here when they are plain Python) and constants (numbers, strings, booleans, tuples).
+    parallel
+        whether ``numba.prange`` in the template runs on several threads. While Numba uses one thread, the loop is
         compiled without threads, which takes less than half the time.
 
     Returns
     -------
-    The compiled function; the same object for the same template and equal parts.
+    Callable[..., Any]
+        The compiled function; the same object for the same template and equal parts.
     """
     bound = {name: compile_part(part) if callable(part) else part for name, part in parts.items()}
     function = _rebind(template, bound)

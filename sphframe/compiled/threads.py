@@ -41,7 +41,8 @@ def use_threads(threads: int | None) -> int:
 
     Raises
     ------
-    InputError: there are not so many, or this process was forked from one whose threads did not survive the fork.
+    InputError
+        there are not so many, or this process was forked from one whose threads did not survive the fork.
     """
     global _process_with_threads
     most = int(numba.config.NUMBA_NUM_THREADS)

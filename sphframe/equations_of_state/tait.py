@@ -17,11 +17,13 @@ class Tait(EquationOfState):
 
     Parameters
     ----------
-    gamma: exponent, at least 1; 7 for water.
+    gamma
+        exponent, at least 1; 7 for water.
 
     Raises
     ------
-    InputError: when gamma is below 1.
+    InputError
+        when gamma is below 1.
 
     Source: Batchelor (1974), An Introduction to Fluid Dynamics; Monaghan (1994), doi:10.1006/jcph.1994.1034.
 

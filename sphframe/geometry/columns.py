@@ -31,12 +31,15 @@ def parts_inside(mesh: Any, axes: Sequence[tuple[Array, Array]]) -> Iterator[tup
 
     Parameters
     ----------
-    mesh: a watertight ``trimesh.Trimesh``.
-    axes: centres and widths of the cells along each axis, m.
+    mesh
+        a watertight ``trimesh.Trimesh``.
+    axes
+        centres and widths of the cells along each axis, m.
 
     Returns
     -------
-    For each part: the index of its cell, its centre (3,), m, and its volume, m3.
+    Iterator[tuple[IntArray, Array, Array]]
+        For each part: the index of its cell, its centre (3,), m, and its volume, m3.
     """
     x, y = ((centre[:, None] + _SHARE * width[:, None]).ravel() for centre, width in axes[:2])
     counts = [len(centre) for centre, _ in axes]

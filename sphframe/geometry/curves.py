@@ -32,7 +32,8 @@ def evaluate(expression: str, t: Array) -> Array:
 
     Raises
     ------
-    ValueError: when the expression contains anything else than numbers, t, pi, ``+ - * / **`` and known functions.
+    ValueError
+        when the expression contains anything else than numbers, t, pi, ``+ - * / **`` and known functions.
     """
     try:
         with np.errstate(all="ignore"):
@@ -66,12 +67,15 @@ def sampled(function: Callable[[Array], Sequence[Any]], start: float, stop: floa
 
     Parameters
     ----------
-    function: returns the coordinates (x, y) for an array of parameters t.
-    start, stop: the first and the last t.
+    function
+        returns the coordinates (x, y) for an array of parameters t.
+    start, stop
+        the first and the last t.
 
     Raises
     ------
-    ValueError: where the curve is not finite, or jumps.
+    ValueError
+        where the curve is not finite, or jumps.
 
     Examples
     --------
@@ -110,7 +114,8 @@ def points_of_csv(path: Path) -> list[list[float]]:
 
     Raises
     ------
-    ValueError: when the file cannot be read, or a line is not two numbers.
+    ValueError
+        when the file cannot be read, or a line is not two numbers.
     """
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
@@ -140,7 +145,8 @@ def area_within(points: Any) -> shapely.Polygon:
 
     Raises
     ------
-    ValueError: when corners are repeated, lie on one line, or the outline crosses or touches itself.
+    ValueError
+        when corners are repeated, lie on one line, or the outline crosses or touches itself.
     """
     corners = _distinct(points, 3, "joins its last point to its first by itself")
     polygon = shapely.Polygon(corners)
@@ -157,7 +163,8 @@ def line_through(points: Any) -> shapely.LineString:
 
     Raises
     ------
-    ValueError: when points are repeated, or the line crosses or touches itself; it may end where it starts.
+    ValueError
+        when points are repeated, or the line crosses or touches itself; it may end where it starts.
     """
     line = shapely.LineString(_distinct(points, 2, "is drawn by a polygon"))
     if not line.is_simple:

@@ -33,10 +33,14 @@ class Domain:
 
     Attributes
     ----------
-    region: the domain, with open edges continued far beyond the walls; it contains lines that are wet on both sides.
-    start, end: (m, 2) ends of the edges; ``wall`` (m,) index of their walls, ``OPEN`` where there is none.
-    before, after: (m,) edges that share the start and the end of each edge.
-    periods: of the domain, which contains the copies around the box that is simulated; None if there are none.
+    region
+        the domain, with open edges continued far beyond the walls; it contains lines that are wet on both sides.
+    start, end
+        (m, 2) ends of the edges; ``wall`` (m,) index of their walls, ``OPEN`` where there is none.
+    before, after
+        (m,) edges that share the start and the end of each edge.
+    periods
+        of the domain, which contains the copies around the box that is simulated; None if there are none.
     """
 
     region: shapely.Geometry
@@ -123,16 +127,23 @@ def fluid_domain(
 
     Parameters
     ----------
-    walls: for the name of each wall its polylines (k, 2), m; the ends of a closed one are equal.
-    fluid: region of the fluid at the start, m, or a collection of regions; walls may run between two regions.
-    spacing: particle spacing, m. Ends that are closer than a millionth of it are joined.
-    one_sided: indices of walls that are wet on one side only, although the other side can be reached.
-    two_sided: indices of walls that may be wet on both sides.
-    periods: of walls and fluid, which are given with their copies around the box that is simulated.
+    walls
+        for the name of each wall its polylines (k, 2), m; the ends of a closed one are equal.
+    fluid
+        region of the fluid at the start, m, or a collection of regions; walls may run between two regions.
+    spacing
+        particle spacing, m. Ends that are closer than a millionth of it are joined.
+    one_sided
+        indices of walls that are wet on one side only, although the other side can be reached.
+    two_sided
+        indices of walls that may be wet on both sides.
+    periods
+        of walls and fluid, which are given with their copies around the box that is simulated.
 
     Raises
     ------
-    InputError: when a wall runs through the fluid, or fluid can reach both of its sides though they are not
+    InputError
+        when a wall runs through the fluid, or fluid can reach both of its sides though they are not
         ``two_sided``; with its name and the place.
     """
     lines = _joined([LineString(line) for wall in walls.values() for line in wall], _SAME * spacing)

@@ -27,8 +27,10 @@ def fill(region: Region, spacing: float) -> Fill:
 
     Parameters
     ----------
-    region: what is filled; the result is kept, so that the arrays are read-only.
-    spacing: m.
+    region
+        what is filled; the result is kept, so that the arrays are read-only.
+    spacing
+        m.
 
     References
     ----------
@@ -93,9 +95,12 @@ def fill_mesh(
 
     Parameters
     ----------
-    near: (n,) which cells are filled; by default all.
-    whole: the volume that all particles have together, m3; by default what is found along the columns of the cells.
-    least: share inside the mesh from which a cell gets a particle; by default as many as fill the cut cells get one.
+    near
+        (n,) which cells are filled; by default all.
+    whole
+        the volume that all particles have together, m3; by default what is found along the columns of the cells.
+    least
+        share inside the mesh from which a cell gets a particle; by default as many as fill the cut cells get one.
     """
     size = lattice.size.prod(axis=1)
     volume, moment = np.zeros(len(size)), np.zeros((len(size), 3))

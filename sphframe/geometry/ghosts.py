@@ -174,11 +174,13 @@ class PlaneWalls(WallGroup):
 
     Parameters
     ----------
-    walls: by their indices; ``fluid`` at the start, m; ``spacing`` of the particles, m; ``periods`` of both.
+    walls
+        by their indices; ``fluid`` at the start, m; ``spacing`` of the particles, m; ``periods`` of both.
 
     Raises
     ------
-    InputError: when the side of the fluid is ambiguous.
+    InputError
+        when the side of the fluid is ambiguous.
     """
 
     def __init__(

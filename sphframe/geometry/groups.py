@@ -23,14 +23,19 @@ def wall_groups(
 
     Parameters
     ----------
-    walls: all walls of a scene.
-    fluid: regions of the fluid at the start, which tell which sides of walls are wet.
-    spacing: of the particles, m.
-    periods: in which walls and fluid repeat themselves.
+    walls
+        all walls of a scene.
+    fluid
+        regions of the fluid at the start, which tell which sides of walls are wet.
+    spacing
+        of the particles, m.
+    periods
+        in which walls and fluid repeat themselves.
 
     Raises
     ------
-    InputError: when the side of the fluid is ambiguous, or walls cannot repeat themselves.
+    InputError
+        when the side of the fluid is ambiguous, or walls cannot repeat themselves.
     """
     if not walls:
         return [(None, NoWalls(fluid[0].dimension))]

@@ -13,7 +13,8 @@ def digest(path: Path) -> str:
 
     Raises
     ------
-    ValueError: when it cannot be read.
+    ValueError
+        when it cannot be read.
     """
     try:
         return hashlib.sha256(path.read_bytes()).hexdigest()
@@ -27,7 +28,8 @@ def closed_mesh(path: Path, sha256: str) -> Any:
 
     Raises
     ------
-    ValueError: when the file holds no mesh, or a mesh that has holes or edges that three or more triangles share.
+    ValueError
+        when the file holds no mesh, or a mesh that has holes or edges that three or more triangles share.
     """
     import trimesh  # takes a second to import
 

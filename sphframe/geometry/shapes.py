@@ -29,7 +29,8 @@ class Shape(BaseModel, ABC):
 
     Raises
     ------
-    ValueError: when the shape is made, for a curve that crosses itself, repeated points, no area, or numbers that are
+    ValueError
+        when the shape is made, for a curve that crosses itself, repeated points, no area, or numbers that are
         not finite; the message says where and how to fix it.
     """
 
@@ -48,8 +49,9 @@ class Shape(BaseModel, ABC):
 
         Returns
         -------
-        In 2-D a polygon or several (closed shapes, with the area of the shape) or a line (open ones) of shapely; in
-        3-D a mesh of trimesh.
+        Any
+            In 2-D a polygon or several (closed shapes, with the area of the shape) or a line (open ones) of shapely; in
+            3-D a mesh of trimesh.
         """
 
     def bounds(self) -> tuple[Array, Array]:
@@ -454,7 +456,8 @@ def plane_area(shape: Shape, tolerance: float) -> shapely.Polygon | shapely.Mult
 
     Raises
     ------
-    ValueError: when the shape is open or a solid.
+    ValueError
+        when the shape is open or a solid.
     """
     if shape.dimension != 2:
         raise ValueError(f"{shape.shape}: a solid cannot be joined to, or cut from, a shape of the plane")

@@ -43,9 +43,12 @@ class SolidDomain:
 
     Attributes
     ----------
-    surface: its boundary, a closed ``trimesh.Trimesh`` whose triangles face out of the fluid.
-    wall: (t,) index of the wall of each triangle, ``OPEN`` where there is none.
-    solid: the rest of space, up to a distance, as a mesh.
+    surface
+        its boundary, a closed ``trimesh.Trimesh`` whose triangles face out of the fluid.
+    wall
+        (t,) index of the wall of each triangle, ``OPEN`` where there is none.
+    solid
+        the rest of space, up to a distance, as a mesh.
     """
 
     surface: Any
@@ -153,13 +156,17 @@ def solid_domain(walls: Mapping[int, Wall], fluid: Sequence[Any], spacing: float
 
     Parameters
     ----------
-    walls: of three dimensions.
-    fluid: regions of fluid at the start.
-    spacing: of the particles, m. Curved walls are followed to a fiftieth of it.
+    walls
+        of three dimensions.
+    fluid
+        regions of fluid at the start.
+    spacing
+        of the particles, m. Curved walls are followed to a fiftieth of it.
 
     Raises
     ------
-    InputError: when a wall runs through the fluid, or fluid can reach both of its sides; with its name and the place.
+    InputError
+        when a wall runs through the fluid, or fluid can reach both of its sides; with its name and the place.
     """
     import manifold3d
 
@@ -197,7 +204,8 @@ def _holds(name: str, shape: WallSolid, position: Array, spacing: float) -> bool
 
     Raises
     ------
-    InputError: when it holds a part of them.
+    InputError
+        when it holds a part of them.
     """
     import igl
 

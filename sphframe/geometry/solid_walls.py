@@ -28,11 +28,13 @@ class SolidWalls(WallGroup):
 
     Parameters
     ----------
-    walls: by their indices; ``fluid`` at the start; ``spacing`` of the particles, m.
+    walls
+        by their indices; ``fluid`` at the start; ``spacing`` of the particles, m.
 
     Raises
     ------
-    InputError: when a wall runs through the fluid, or is wet on both sides.
+    InputError
+        when a wall runs through the fluid, or is wet on both sides.
     """
 
     def __init__(self, walls: Mapping[int, Wall], fluid: Sequence[Any], spacing: float) -> None:

@@ -34,7 +34,8 @@ def solid_of(geometry: Any) -> Solid:
 
     Parameters
     ----------
-    geometry: a shapely ``Polygon`` or ``MultiPolygon``, or a watertight ``trimesh.Trimesh``.
+    geometry
+        a shapely ``Polygon`` or ``MultiPolygon``, or a watertight ``trimesh.Trimesh``.
 
     Examples
     --------

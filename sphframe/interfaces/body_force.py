@@ -23,7 +23,8 @@ class BodyForce(ABC):
 
         Raises
         ------
-        InputError, ValueError: when the force contradicts the case.
+        InputError, ValueError
+            when the force contradicts the case.
         """
         return self
 
@@ -44,7 +45,8 @@ def gravity_vector(gravity: float | Sequence[float], dimension: int) -> Array:
 
     Raises
     ------
-    ValueError: when a vector has another number of components.
+    ValueError
+        when a vector has another number of components.
     """
     if isinstance(gravity, Sequence):
         if len(gravity) != dimension:

@@ -49,21 +49,24 @@ class BoundaryInterpolator(ABC):
 
         Parameters
         ----------
-        kernel: compiled kernel functions, for methods that need more than its values at the neighbours.
-        dim: 2 or 3, a constant of the compiled function.
+        kernel
+            compiled kernel functions, for methods that need more than its values at the neighbours.
+        dim
+            2 or 3, a constant of the compiled function.
 
         Returns
         -------
-        A function ``weights(offsets, distances, kernel_values, volumes, support, lift, out) -> status``, compiled
-        by sphframe with Numba. It must not allocate, raise, or write anywhere but to ``out``.
+        WeightsFunction
+            A function ``weights(offsets, distances, kernel_values, volumes, support, lift, out) -> status``, compiled
+            by sphframe with Numba. It must not allocate, raise, or write anywhere but to ``out``.
 
-        ``offsets`` (n, dim): x_j - r, in m; ``distances`` (n,): their lengths, 0 <= r_j < support;
-        ``kernel_values`` (n,): W(r_j, h) in m^-dim; ``volumes`` (n,): V_j in m^dim; ``support``: R in m;
-        ``lift`` (dim,): from the evaluation point to the ghost, non-zero only for pressure and only when
-        ``traits.evaluation_point`` is EXTRAPOLATED; ``out`` (n,): where the weights go. n >= 1 always: the
-        function is not called for a point without neighbours, whose status is DRY.
+            ``offsets`` (n, dim): x_j - r, in m; ``distances`` (n,): their lengths, 0 <= r_j < support;
+            ``kernel_values`` (n,): W(r_j, h) in m^-dim; ``volumes`` (n,): V_j in m^dim; ``support``: R in m;
+            ``lift`` (dim,): from the evaluation point to the ghost, non-zero only for pressure and only when
+            ``traits.evaluation_point`` is EXTRAPOLATED; ``out`` (n,): where the weights go. n >= 1 always: the
+            function is not called for a point without neighbours, whose status is DRY.
 
-        It returns OK, or TOO_FEW or SINGULAR, in which case ``out`` is overwritten by :meth:`fallback_weights`.
+            It returns OK, or TOO_FEW or SINGULAR, in which case ``out`` is overwritten by :meth:`fallback_weights`.
         """
 
     def fallback_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
@@ -79,16 +82,20 @@ class BoundaryInterpolator(ABC):
 
         Parameters
         ----------
-        points: (m, dim) or (dim,), m: evaluation points.
-        cloud: a :class:`sphframe.ParticleCloud` of n particles.
+        points
+            (m, dim) or (dim,), m: evaluation points.
+        cloud
+            a :class:`sphframe.ParticleCloud` of n particles.
 
         Returns
         -------
-        csr_array (m, n); :func:`sphframe.boundary.operator.operator` returns the statuses too, and takes lifts.
+        csr_array
+            csr_array (m, n); :func:`sphframe.boundary.operator.operator` returns the statuses too, and takes lifts.
 
         Raises
         ------
-        InputError: when a shape, a dimension or a number is not valid.
+        InputError
+            when a shape, a dimension or a number is not valid.
         """
         from sphframe.boundary.operator import operator  # from a room above: an exception listed in pyproject.toml
 

@@ -26,7 +26,8 @@ def edge_quadrature(value: ScalarFunction, support: float, mean: ScalarFunction 
 
     Parameters
     ----------
-    value: w(q). support: R/h. mean: k(q), in closed form; by default it is computed by 16 nodes as well.
+    value
+        w(q). support: R/h. mean: k(q), in closed form; by default it is computed by 16 nodes as well.
     """
     nodes, weights = np.polynomial.legendre.leggauss(NODES)
     x, y = tuple(0.5 + 0.5 * nodes), tuple(0.5 * weights)

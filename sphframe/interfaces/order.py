@@ -9,10 +9,13 @@ class Order:
 
     Attributes
     ----------
-    straight: p at a straight wall half a spacing from the first layer of a square lattice.
-    anywhere: p also at circular and wavy walls, on a jittered lattice, and on one nearer to the wall or farther away;
+    straight
+        p at a straight wall half a spacing from the first layer of a square lattice.
+    anywhere
+        p also at circular and wavy walls, on a jittered lattice, and on one nearer to the wall or farther away;
         None where nothing is promised.
-    error: the error at the straight wall with 32 spacings over the length of the fields, see
+    error
+        the error at the straight wall with 32 spacings over the length of the fields, see
         :mod:`sphframe.testing.order`; it is held to 1 %. An order cannot show a wrong factor in a rule that does not
         converge.
     """
@@ -28,10 +31,14 @@ class Orders:
 
     Attributes
     ----------
-    pressure: the pressure gradient, where the normal gradient of the pressure balances the force b.
-    divergence, viscosity: divergence and viscous force, Laplacian over nu, of a flow with no slip.
-    shear: the velocity far from the wall that the error of the viscosity causes, the integral of distance times error.
-    slip_divergence, slip_viscosity: divergence and viscous force of a flow that slips along the wall without stress.
+    pressure
+        the pressure gradient, where the normal gradient of the pressure balances the force b.
+    divergence, viscosity
+        divergence and viscous force, Laplacian over nu, of a flow with no slip.
+    shear
+        the velocity far from the wall that the error of the viscosity causes, the integral of distance times error.
+    slip_divergence, slip_viscosity
+        divergence and viscous force of a flow that slips along the wall without stress.
     """
 
     pressure: Order | None = None

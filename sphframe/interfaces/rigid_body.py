@@ -78,7 +78,8 @@ class RigidBody(ABC):
 
         Raises
         ------
-        InputError, ValueError: when the body contradicts its surroundings; the caller adds the body's name.
+        InputError, ValueError
+            when the body contradicts its surroundings; the caller adds the body's name.
         """
         return self
 
@@ -88,14 +89,18 @@ class RigidBody(ABC):
 
         Parameters
         ----------
-        time: in s.
-        position, velocity: generalised coordinates as advanced by the integrator with the accelerations returned
+        time
+            in s.
+        position, velocity
+            generalised coordinates as advanced by the integrator with the accelerations returned
             earlier; zero and :attr:`initial_velocity` at the start.
-        load: force on the body and moment about its centre, from the fluid and from contacts with walls: (N, N, N m)
+        load
+            force on the body and moment about its centre, from the fluid and from contacts with walls: (N, N, N m)
             per metre of width in 2-D, (N, N, N, N m, N m, N m) in 3-D; zero when ``needs_load`` is false.
 
         Returns
         -------
-        The motion. A prescribed body ignores the arguments and returns functions of time; a dynamic body
-        returns the position and velocity it was given (or corrects them, at a stop) and its acceleration.
+        Motion
+            The motion. A prescribed body ignores the arguments and returns functions of time; a dynamic body
+            returns the position and velocity it was given (or corrects them, at a stop) and its acceleration.
         """

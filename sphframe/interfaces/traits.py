@@ -69,20 +69,34 @@ class Traits:
 
     Attributes
     ----------
-    partition_of_unity: sum_j Phi_j = 1 wherever the status is not DRY.
-    non_negative: Phi_j >= 0.
-    range_restricted: min f <= value <= max f.
-    reproduces_degree: the highest polynomial degree reproduced exactly when the status is OK.
-    fewest_points: neighbours needed for status OK in 2-D and in 3-D (in general position).
-    interpolates_particles: at the position of a particle the value is that of the particle.
-    rotation_invariant: rotating the cloud leaves the weights unchanged.
-    volume_independent: the weights do not depend on the particles' volumes.
-    kernel_independent: the weights depend on the cut-off radius, but not on the kernel.
-    continuous: the weights are continuous in the evaluation point.
-    jumps_at_cut_off: but for particles that enter or leave the support, whose weight begins with a jump.
-    dimensions: numbers of dimensions in which it works.
-    evaluation_point: where the field of a ghost particle is evaluated.
-    order: orders of convergence near walls, of fixed ghosts to which the method interpolates.
+    partition_of_unity
+        sum_j Phi_j = 1 wherever the status is not DRY.
+    non_negative
+        Phi_j >= 0.
+    range_restricted
+        min f <= value <= max f.
+    reproduces_degree
+        the highest polynomial degree reproduced exactly when the status is OK.
+    fewest_points
+        neighbours needed for status OK in 2-D and in 3-D (in general position).
+    interpolates_particles
+        at the position of a particle the value is that of the particle.
+    rotation_invariant
+        rotating the cloud leaves the weights unchanged.
+    volume_independent
+        the weights do not depend on the particles' volumes.
+    kernel_independent
+        the weights depend on the cut-off radius, but not on the kernel.
+    continuous
+        the weights are continuous in the evaluation point.
+    jumps_at_cut_off
+        but for particles that enter or leave the support, whose weight begins with a jump.
+    dimensions
+        numbers of dimensions in which it works.
+    evaluation_point
+        where the field of a ghost particle is evaluated.
+    order
+        orders of convergence near walls, of fixed ghosts to which the method interpolates.
     """
 
     partition_of_unity: bool = True

@@ -51,12 +51,25 @@ class Interpolated(NamedTuple):
 class WallPoint(NamedTuple):
     """A wall particle as ``assign`` and ``rate`` see it.
 
-    normal: (dim,) n; ``distance``: behind the wall, m; ``height``: of the evaluation point above the wall, m.
-    lift: (dim,) from the evaluation point to the particle, m.
-    reflection: (dim, dim) S, maps the fluid's velocity relative to the wall to that of the ghost; -1 for no slip, and
-    for mirror images that of free slip in any case.
-    velocity: (dim,) u_w, m/s; ``force``: (dim,) b, N/m^3.
-    state: what ``rate`` advances, such as a density; 0 without it.
+    Attributes
+    ----------
+    normal
+        (dim,) n.
+    distance
+        behind the wall, m.
+    height
+        of the evaluation point above the wall, m.
+    lift
+        (dim,) from the evaluation point to the particle, m.
+    reflection
+        (dim, dim) S, maps the fluid's velocity relative to the wall to that of the ghost; -1 for no slip, and for
+        mirror images that of free slip in any case.
+    velocity
+        (dim,) u_w, m/s.
+    force
+        (dim,) b, N/m^3.
+    state
+        what ``rate`` advances, such as a density; 0 without it.
     """
 
     normal: Array
@@ -177,25 +190,35 @@ class WallParts:
 
     Attributes
     ----------
-    assign: ``assign(fluid, wall, constants, velocity, viscous_velocity) -> (pressure, share)``, once per wall particle
+    assign
+        ``assign(fluid, wall, constants, velocity, viscous_velocity) -> (pressure, share)``, once per wall particle
         and evaluation. It writes the velocities (dim,) for the continuity and for the viscosity, and returns p_G and
         the share of the volume with which the particle counts, 0 to 1. Without it, u_G = u_w and p_G = 0.
-    seen: ``seen(fluid, wall, separation, constants) -> Seen``, per pair of a fluid and a wall particle. The loop is
+    seen
+        ``seen(fluid, wall, separation, constants) -> Seen``, per pair of a fluid and a wall particle. The loop is
         vectorised: choices instead of branches, + - * /, min, max, abs, sqrt, divisions guarded by max(., tiny); it
         must be finite for any finite input. Without it, a pair sees what is assigned.
-    force: ``force(wall, separation, constants) -> (ax, ay, az)``, acceleration of a fluid particle per pair, m/s^2;
+    force
+        ``force(wall, separation, constants) -> (ax, ay, az)``, acceleration of a fluid particle per pair, m/s^2;
         0 beyond the cut-off. It takes the place of the sums over wall particles in continuity and momentum.
-    surface: ``surface(fluid, wall, edge, constants) -> (fx, fy, divergence)``, per fluid particle and edge, in two
+    surface
+        ``surface(fluid, wall, edge, constants) -> (fx, fy, divergence)``, per fluid particle and edge, in two
         dimensions: force per volume, Pa/m, and part of the divergence of the velocity, 1/s. The edges are the pieces of
         a row on the wall. They take the place of the sums over wall particles.
-    divides_by_gamma: whether the sums over fluid and edges are divided by gamma.
-    rate: ``rate(neighbours, wall, constants) -> d(state)/dt``, once per wall particle and evaluation. The state is a
+    divides_by_gamma
+        whether the sums over fluid and edges are divided by gamma.
+    rate
+        ``rate(neighbours, wall, constants) -> d(state)/dt``, once per wall particle and evaluation. The state is a
         density; it starts in hydrostatic equilibrium, is advanced by the integrator, and is part of checkpoints.
-    uses_velocity: whether ``assign`` uses the fluid's velocity. Without it, a method that extrapolates gives only the
+    uses_velocity
+        whether ``assign`` uses the fluid's velocity. Without it, a method that extrapolates gives only the
         pressure, where it succeeds.
-    own_viscous_velocity: whether ``assign`` writes a velocity for the viscosity; else it is that for the continuity.
-    friction: whether the viscosity between fluid and wall particles acts; with free slip, most treatments leave it out.
-    conjugate: whether the velocities are then corrected as in :mod:`sphframe.boundary.conjugate`.
+    own_viscous_velocity
+        whether ``assign`` writes a velocity for the viscosity; else it is that for the continuity.
+    friction
+        whether the viscosity between fluid and wall particles acts; with free slip, most treatments leave it out.
+    conjugate
+        whether the velocities are then corrected as in :mod:`sphframe.boundary.conjugate`.
     """
 
     assign: AssignFunction | None = None
@@ -216,11 +239,16 @@ class WallContext:
 
     Attributes
     ----------
-    kernel, dim: compiled kernel, and 2 or 3.
-    interpolator, velocity_interpolator: what the methods of these names of :class:`WallTreatment` returned.
-    no_slip: whether the case asks for no slip.
-    balanced_lift, corrected_velocity: the case's ``hydrostatic_lift`` and ``ghost_velocity``.
-    pressure: the case's equation of state, p(rho, rho0, c0), for the states that ``rate`` advances.
+    kernel, dim
+        compiled kernel, and 2 or 3.
+    interpolator, velocity_interpolator
+        what the methods of these names of :class:`WallTreatment` returned.
+    no_slip
+        whether the case asks for no slip.
+    balanced_lift, corrected_velocity
+        the case's ``hydrostatic_lift`` and ``ghost_velocity``.
+    pressure
+        the case's equation of state, p(rho, rho0, c0), for the states that ``rate`` advances.
     """
 
     kernel: CompiledKernel
@@ -239,14 +267,22 @@ class WallTraits:
 
     Attributes
     ----------
-    exact_constant: under uniform pressure, with the fluid's velocity that of the wall, forces and rates vanish.
-    exact_hydrostatic: in a hydrostatic field, acceleration f included, the force is that of the fluid's own lattice.
-    exact_shear: with no slip, the viscous force vanishes in a linear shear flow along the wall.
-    exact_normal: a velocity that grows linearly from the wall has the divergence of the fluid's own lattice.
-    momentum: fluid and walls together conserve momentum. False where sums are divided by gamma.
-    conjugate: without viscosity, diffusion and gravity a wall at rest does no work.
-    dimensions: numbers of dimensions in which it works.
-    order: orders of convergence near walls, also curved ones, with options of the case at their defaults.
+    exact_constant
+        under uniform pressure, with the fluid's velocity that of the wall, forces and rates vanish.
+    exact_hydrostatic
+        in a hydrostatic field, acceleration f included, the force is that of the fluid's own lattice.
+    exact_shear
+        with no slip, the viscous force vanishes in a linear shear flow along the wall.
+    exact_normal
+        a velocity that grows linearly from the wall has the divergence of the fluid's own lattice.
+    momentum
+        fluid and walls together conserve momentum. False where sums are divided by gamma.
+    conjugate
+        without viscosity, diffusion and gravity a wall at rest does no work.
+    dimensions
+        numbers of dimensions in which it works.
+    order
+        orders of convergence near walls, also curved ones, with options of the case at their defaults.
     """
 
     exact_constant: bool = False

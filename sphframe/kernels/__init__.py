@@ -12,7 +12,8 @@ def compiled_kernel(kernel: Kernel, dim: int) -> CompiledKernel:
 
     Raises
     ------
-    BrokenPluginError: when a function is none, or does not return a number.
+    BrokenPluginError
+        when a function is none, or does not return a number.
     """
     middle = (0.5 * kernel.support,)
     value = checked_scalar(kernel, "value_function", kernel.value_function(), ("q",), middle)

@@ -20,7 +20,8 @@ def polynomial_edge_integrals(*terms: tuple[float, tuple[float, ...]]) -> EdgeFu
 
     Parameters
     ----------
-    terms: (cut, (c_0, c_1, ...)), the cut-off in smoothing lengths and the coefficients; a term is 0 at its cut.
+    terms
+        (cut, (c_0, c_1, ...)), the cut-off in smoothing lengths and the coefficients; a term is 0 at its cut.
 
     Examples
     --------

@@ -38,13 +38,18 @@ class NeighbourLists:
 
     Attributes
     ----------
-    cluster: number of particles that share a list; the list of a single particle holds exactly its neighbours, that of
+    cluster
+        number of particles that share a list; the list of a single particle holds exactly its neighbours, that of
         several also the members of the cluster themselves.
-    width: width of the rows of the cell grid, m: the edge of the cube that a cluster should fill.
-    fluid: (clusters, capacity) uint32; row c holds ``fluid_counts[c]`` fluid neighbours, then ``ghost_counts[c]``
+    width
+        width of the rows of the cell grid, m: the edge of the cube that a cluster should fill.
+    fluid
+        (clusters, capacity) uint32; row c holds ``fluid_counts[c]`` fluid neighbours, then ``ghost_counts[c]``
         ghosts, as indices of rows.
-    points: (g, capacity) uint32 fluid neighbours of each evaluation point, ``point_counts`` (g,) of them.
-    sight: the sides of walls, at present, where walls are thin; None where nothing hides a neighbour. With it,
+    points
+        (g, capacity) uint32 fluid neighbours of each evaluation point, ``point_counts`` (g,) of them.
+    sight
+        the sides of walls, at present, where walls are thin; None where nothing hides a neighbour. With it,
         ``shares`` (clusters, capacity, LANES) are those in which the members of a cluster of LANES see the entries of
         ``fluid``, and ``points`` has only what is seen, at the time of the search (:mod:`sphframe.neighbours.sight`).
     """
@@ -171,10 +176,14 @@ class NeighbourLists:
 
         Parameters
         ----------
-        rows: (n + g, width) fluid and ghosts at present; ``evaluation_points`` (g, dim), m.
-        motion: of the fluid, from :meth:`largest_motion`.
-        wall_speed: largest speed of a wall, m/s.
-        interval: time for which everything is taken to keep its speed, s.
+        rows
+            (n + g, width) fluid and ghosts at present; ``evaluation_points`` (g, dim), m.
+        motion
+            of the fluid, from :meth:`largest_motion`.
+        wall_speed
+            largest speed of a wall, m/s.
+        interval
+            time for which everything is taken to keep its speed, s.
         """
         ahead = motion.speed * interval
         walls = wall_speed * interval + largest_wall_displacement(

@@ -40,11 +40,16 @@ class Checkpoint:
 
     Attributes
     ----------
-    run_id: identifies the run; the output file has the same one.
-    time: simulated time, s.
-    samples, frames: number of each that the output contains at this time.
-    versions: versions of the software that computed the state, by name.
-    state: arrays of the simulation's state, by name.
+    run_id
+        identifies the run; the output file has the same one.
+    time
+        simulated time, s.
+    samples, frames
+        number of each that the output contains at this time.
+    versions
+        versions of the software that computed the state, by name.
+    state
+        arrays of the simulation's state, by name.
     """
 
     run_id: str
@@ -65,7 +70,8 @@ def write_checkpoint(path: Path, simulation: ResumableRun, run_id: str) -> None:
 
     Raises
     ------
-    OSError: when it cannot be written; the previous one is intact.
+    OSError
+        when it cannot be written; the previous one is intact.
     """
     arrays = {name: np.asarray(a, _TYPES[a.dtype.kind], order="C") for name, a in simulation.state().items()}
     header = {
@@ -88,7 +94,8 @@ def read_checkpoint(path: Path) -> Checkpoint:
 
     Raises
     ------
-    InputError: when it is missing or damaged, or its format is another one.
+    InputError
+        when it is missing or damaged, or its format is another one.
     """
     damaged = (
         f"{path} is not a readable checkpoint of sphframe: it was written by another program or is damaged; copy it"

@@ -19,13 +19,17 @@ class CheckpointWriter:
 
     Parameters
     ----------
-    writer: writes the output; it must receive every event before the checkpoint writer does.
-    every: wall-clock time between checkpoints, s; None for none.
-    interval: simulated time between checkpoints, s; None for none.
+    writer
+        writes the output; it must receive every event before the checkpoint writer does.
+    every
+        wall-clock time between checkpoints, s; None for none.
+    interval
+        simulated time between checkpoints, s; None for none.
 
     Raises
     ------
-    InputError: when an interval is not positive.
+    InputError
+        when an interval is not positive.
     """
 
     def __init__(self, writer: NetCDFWriter, *, every: float | None = 60.0, interval: float | None = None) -> None:
@@ -69,7 +73,8 @@ class CheckpointWriter:
 
         Raises
         ------
-        OutputError: when it cannot be written; the previous one is intact.
+        OutputError
+            when it cannot be written; the previous one is intact.
         """
         self._writer.flush()
         try:

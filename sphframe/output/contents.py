@@ -45,7 +45,8 @@ def write_start(file: netCDF4.Dataset, simulation: RunView, run_id: str) -> None
 
     Raises
     ------
-    OutputError: a diagnostic of the case has the name of another variable.
+    OutputError
+        a diagnostic of the case has the name of another variable.
     """
     _define(file, simulation, _dimensions(simulation))
     file.setncattr("run_id", run_id)

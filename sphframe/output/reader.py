@@ -22,17 +22,20 @@ def open_dataset(path: str | os.PathLike[str]) -> "xr.Dataset":
 
     Parameters
     ----------
-    path: the file.
+    path
+        the file.
 
     Returns
     -------
-    A dataset with dimensions ``time`` (frames), ``probe_time`` (samples), ``particle``, ``ghost``, ``space``,
-    ``probe``, ``gauge``, ``wall``, ``body`` and ``status``, as far as the case has them; units in the attribute
-    ``units`` of each variable, SI throughout.
+    xr.Dataset
+        A dataset with dimensions ``time`` (frames), ``probe_time`` (samples), ``particle``, ``ghost``, ``space``,
+        ``probe``, ``gauge``, ``wall``, ``body`` and ``status``, as far as the case has them; units in the attribute
+        ``units`` of each variable, SI throughout.
 
     Raises
     ------
-    InputError: the file is missing, was not written by sphframe, or is truncated.
+    InputError
+        the file is missing, was not written by sphframe, or is truncated.
     """
     import xarray as xr  # slower to import than all of sphframe, and a run does not need it to start
 
@@ -64,7 +67,8 @@ def prepared(dataset: "xr.Dataset", name: str = "the dataset") -> "xr.Dataset":
 
     Raises
     ------
-    InputError: it is not that of a run, or the file is truncated.
+    InputError
+        it is not that of a run, or the file is truncated.
     """
     if "case_parameters" not in dataset.attrs or "particle_mass" not in dataset:
         raise InputError(

@@ -35,8 +35,10 @@ class RunFile:
 
     Attributes
     ----------
-    path: the file.
-    frames, samples: number of each that the file holds.
+    path
+        the file.
+    frames, samples
+        number of each that the file holds.
     """
 
     def __init__(self, path: Path) -> None:
@@ -55,7 +57,8 @@ class RunFile:
 
         Raises
         ------
-        OutputError: the file cannot be written, or exists and is not to be replaced.
+        OutputError
+            the file cannot be written, or exists and is not to be replaced.
         """
         draft = draft_path(self.path)
         with self._reporting_failures():
@@ -79,7 +82,8 @@ class RunFile:
 
         Raises
         ------
-        OutputError: the file belongs to another run than the checkpoint, holds less, or another run is writing it.
+        OutputError
+            the file belongs to another run than the checkpoint, holds less, or another run is writing it.
         """
         with self._reporting_failures():
             self._lock = lock_file(self.path)
@@ -99,7 +103,8 @@ class RunFile:
 
         Parameters
         ----------
-        values: arrays (n, ...) by the names of the variables.
+        values
+            arrays (n, ...) by the names of the variables.
         """
         dataset = self._open_dataset()
         times = np.asarray(values["probe_time"])

@@ -30,14 +30,21 @@ class Variable:
 
     Attributes
     ----------
-    dimensions: names, slowest first. ``time`` counts frames and is the unlimited dimension; ``probe_time`` counts the
+    dimensions
+        names, slowest first. ``time`` counts frames and is the unlimited dimension; ``probe_time`` counts the
         much more frequent samples of probes and sums.
-    unit: SI unit; see ``per_width``.
-    long_name: what it is, as the label of an axis.
-    type: ``f8``, ``i4``, or ``text`` (fixed-length UTF-8).
-    per_width: whether the quantity is per metre of width in 2-D; its unit is then divided by m.
-    fill: whether values that have not been written are marked by ``_FillValue``, which coordinates must not have.
-    attributes: further CF attributes.
+    unit
+        SI unit; see ``per_width``.
+    long_name
+        what it is, as the label of an axis.
+    type
+        ``f8``, ``i4``, or ``text`` (fixed-length UTF-8).
+    per_width
+        whether the quantity is per metre of width in 2-D; its unit is then divided by m.
+    fill
+        whether values that have not been written are marked by ``_FillValue``, which coordinates must not have.
+    attributes
+        further CF attributes.
     """
 
     dimensions: tuple[str, ...]

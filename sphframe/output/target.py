@@ -14,7 +14,8 @@ def check_target(path: Path, overwrite: bool) -> None:
 
     Raises
     ------
-    OutputError: the file exists and ``overwrite`` is false, another run is writing it, or its folder is missing or
+    OutputError
+        the file exists and ``overwrite`` is false, another run is writing it, or its folder is missing or
         cannot be written to.
     """
     if path.is_dir():
@@ -48,7 +49,8 @@ def check_space(path: Path, planned: int, frames: int) -> None:
 
     Raises
     ------
-    OutputError: the free space is too small.
+    OutputError
+        the free space is too small.
     """
     free = shutil.disk_usage(path.parent).free
     if planned > free:

@@ -25,15 +25,20 @@ class NetCDFWriter:
 
     Parameters
     ----------
-    path: the file to write; conventionally ending in ``.nc``.
-    overwrite: replace an existing file. It is replaced when the run starts, not before.
-    flush_interval: wall-clock time after which samples are written at the latest, s; a killed run loses at most the
+    path
+        the file to write; conventionally ending in ``.nc``.
+    overwrite
+        replace an existing file. It is replaced when the run starts, not before.
+    flush_interval
+        wall-clock time after which samples are written at the latest, s; a killed run loses at most the
         samples of this time.
-    resumed: the checkpoint from which an existing file is continued; None to create a new file.
+    resumed
+        the checkpoint from which an existing file is continued; None to create a new file.
 
     Raises
     ------
-    OutputError: the file exists and ``overwrite`` is false, its folder is missing or cannot be written to, or another
+    OutputError
+        the file exists and ``overwrite`` is false, its folder is missing or cannot be written to, or another
         run is writing it. All of this is checked here, before anything is computed.
     """
 
@@ -103,7 +108,8 @@ class NetCDFWriter:
 
         Raises
         ------
-        OutputError: when that fails.
+        OutputError
+            when that fails.
         """
         if self._file.is_open:
             self._write_samples()

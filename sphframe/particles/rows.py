@@ -27,10 +27,14 @@ class Columns(NamedTuple):
 
     Attributes
     ----------
-    z: the last coordinate, the height; the others are columns 0 and, in 3-D, 1.
-    u, v, w: first, second and last component of the velocity (in 2-D ``w`` is ``v``).
-    density, pressure, volume, mass: as in the table above.
-    width: number of columns.
+    z
+        the last coordinate, the height; the others are columns 0 and, in 3-D, 1.
+    u, v, w
+        first, second and last component of the velocity (in 2-D ``w`` is ``v``).
+    density, pressure, volume, mass
+        as in the table above.
+    width
+        number of columns.
     """
 
     dim: int

@@ -13,16 +13,33 @@ class LoopParameters(NamedTuple):
 
     Attributes
     ----------
-    smoothing_length: h, m; ``support``: cut-off radius R, m.
-    kernel_scale: sigma_d / h^d, m^-d; ``gradient_scale``: sigma_d / h^(d+2), m^-(d+2).
-    reference_density: rho0, kg/m^3; ``sound_speed``: c0, m/s.
-    gravity: magnitude g of gravity, m/s^2; ``force_x``, ``force_y``, ``force_z``: the force per mass at the origin,
+    smoothing_length
+        h, m.
+    support
+        cut-off radius R, m.
+    kernel_scale
+        sigma_d / h^d, m^-d.
+    gradient_scale
+        sigma_d / h^(d+2), m^-(d+2).
+    reference_density
+        rho0, kg/m^3.
+    sound_speed
+        c0, m/s.
+    gravity
+        magnitude g of gravity, m/s^2; ``force_x``, ``force_y``, ``force_z``: the force per mass at the origin,
         m/s^2, gravity included; the nine others: its gradient, 1/s^2, see :mod:`sphframe.physics.body_force`.
-    diffusion: delta h c0, m^2/s, factor of the density diffusion.
-    viscosity: Pa s, factor of pi_ij: alpha h c0 rho0, and 2 (d + 2) rho0 nu of the form of Monaghan and Gingold.
-    friction: 2 rho0 nu of the form of Morris, Pa s.
-    spacing: particle spacing dx, m; ``depth``: greatest depth of still water, m.
-    period_x, period_y, period_z: length of each direction that repeats itself, m, else 0; ``per_period_x``,
+    diffusion
+        delta h c0, m^2/s, factor of the density diffusion.
+    viscosity
+        Pa s, factor of pi_ij: alpha h c0 rho0, and 2 (d + 2) rho0 nu of the form of Monaghan and Gingold.
+    friction
+        2 rho0 nu of the form of Morris, Pa s.
+    spacing
+        particle spacing dx, m.
+    depth
+        greatest depth of still water, m.
+    period_x, period_y, period_z
+        length of each direction that repeats itself, m, else 0; ``per_period_x``,
         ``per_period_y``, ``per_period_z``: their inverses, else 0. Parallel loops take no tuples within tuples.
     """
 

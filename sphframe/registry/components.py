@@ -16,15 +16,21 @@ def load(kind: str, name: str) -> Any:
 
     Returns
     -------
-    A concrete subclass of the interface of the kind; for hooks the object that the entry point names.
+    Any
+        A concrete subclass of the interface of the kind; for hooks the object that the entry point names.
 
     Raises
     ------
-    InputError: when ``kind`` is not a kind.
-    UnknownComponentError: when nothing installed has that name.
-    ClashingPluginError: when several distributions claim it.
-    ApiVersionError: when the plugin was written for another version of the interface.
-    BrokenPluginError: when it cannot be imported, or is not a concrete subclass of the interface.
+    InputError
+        when ``kind`` is not a kind.
+    UnknownComponentError
+        when nothing installed has that name.
+    ClashingPluginError
+        when several distributions claim it.
+    ApiVersionError
+        when the plugin was written for another version of the interface.
+    BrokenPluginError
+        when it cannot be imported, or is not a concrete subclass of the interface.
     """
     entry = find(kind, name)
     try:
@@ -52,8 +58,10 @@ def create(kind: str, name: str, /, **options: Any) -> Any:
 
     Raises
     ------
-    InputError: when an option is unknown, missing, of the wrong type, NaN or infinite, or refused by the component.
-    PluginError: as :func:`load` does.
+    InputError
+        when an option is unknown, missing, of the wrong type, NaN or infinite, or refused by the component.
+    PluginError
+        as :func:`load` does.
 
     Examples
     --------

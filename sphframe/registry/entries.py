@@ -22,11 +22,16 @@ class Entry:
 
     Attributes
     ----------
-    name: the name by which it is chosen.
-    kind: one of :data:`KINDS`.
-    value: its address, ``module:attribute``.
-    distribution, version: the distribution that declares it; empty for a ``module:attribute`` given in place of a name.
-    error: why it cannot be used; known without loading it for clashes of names, else from the last attempt to load it.
+    name
+        the name by which it is chosen.
+    kind
+        one of :data:`KINDS`.
+    value
+        its address, ``module:attribute``.
+    distribution, version
+        the distribution that declares it; empty for a ``module:attribute`` given in place of a name.
+    error
+        why it cannot be used; known without loading it for clashes of names, else from the last attempt to load it.
     """
 
     name: str
@@ -73,7 +78,8 @@ def available(kind: str) -> Listing:
 
     Raises
     ------
-    InputError: when ``kind`` is not one of :data:`KINDS`.
+    InputError
+        when ``kind`` is not one of :data:`KINDS`.
     """
     _check_kind(kind)
     entries = _declared()[kind]
@@ -89,9 +95,12 @@ def find(kind: str, name: str) -> Entry:
 
     Raises
     ------
-    InputError: when ``kind`` is not one of :data:`KINDS`.
-    UnknownComponentError: when nothing installed has that name.
-    ClashingPluginError: when several distributions claim it.
+    InputError
+        when ``kind`` is not one of :data:`KINDS`.
+    UnknownComponentError
+        when nothing installed has that name.
+    ClashingPluginError
+        when several distributions claim it.
     """
     _check_kind(kind)
     if is_address(name):

@@ -22,8 +22,10 @@ def construct(component: type, label: str, given: Mapping[str, Any]) -> Any:
 
     Raises
     ------
-    InputError: when an option is unknown, missing, of the wrong type, not finite, or refused by the constructor.
-    BrokenPluginError: when the constructor fails otherwise.
+    InputError
+        when an option is unknown, missing, of the wrong type, not finite, or refused by the constructor.
+    BrokenPluginError
+        when the constructor fails otherwise.
     """
     known = _parameters(component)
     open_ended = any(parameter.kind is parameter.VAR_KEYWORD for parameter in known.values())

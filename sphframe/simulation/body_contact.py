@@ -52,7 +52,8 @@ class BodyContacts:
 
     Attributes
     ----------
-    deepest: the deepest penetration at the last evaluation; None without contact.
+    deepest
+        the deepest penetration at the last evaluation; None without contact.
     """
 
     def __init__(
@@ -116,7 +117,8 @@ class BodyContacts:
 
         Returns
         -------
-        Points (c, dim), the directions (c, dim) in which the body has come too far, and the depths (c,).
+        tuple[Array, Array, Array]
+            Points (c, dim), the directions (c, dim) in which the body has come too far, and the depths (c,).
         """
         found = []
         for own in (surface for surface in self._surfaces if surface.body == k):

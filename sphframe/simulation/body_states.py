@@ -22,9 +22,12 @@ class BodyStates:
 
     Attributes
     ----------
-    size: number of generalised coordinates of a body, 3 in 2-D and 6 in 3-D.
-    position, velocity: (bodies, size) generalised coordinates, see :class:`Motion`.
-    motions: of each body, as it was last asked for.
+    size
+        number of generalised coordinates of a body, 3 in 2-D and 6 in 3-D.
+    position, velocity
+        (bodies, size) generalised coordinates, see :class:`Motion`.
+    motions
+        of each body, as it was last asked for.
     """
 
     def __init__(self, bodies: Mapping[str, RigidBody], dim: int) -> None:

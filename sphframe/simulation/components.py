@@ -32,11 +32,15 @@ class Components:
 
     Attributes
     ----------
-    interpolator: the one that the treatment uses; None if it uses none. ``velocity_interpolator``: another one for
+    interpolator
+        the one that the treatment uses; None if it uses none. ``velocity_interpolator``: another one for
         velocities.
-    compiled_kernel: the kernel's compiled functions and constants in the case's dimension.
-    walls: the functions of the treatment of walls. ``body_force``: None without acceleration.
-    parts: what the compiled loops are specialised with, by the name that the loops use.
+    compiled_kernel
+        the kernel's compiled functions and constants in the case's dimension.
+    walls
+        the functions of the treatment of walls. ``body_force``: None without acceleration.
+    parts
+        what the compiled loops are specialised with, by the name that the loops use.
     """
 
     interpolator: BoundaryInterpolator | None
@@ -56,8 +60,10 @@ class Components:
 
         Raises
         ------
-        InputError: when an option is not valid.
-        PluginError: when a component is not installed, or cannot be loaded.
+        InputError
+            when an option is not valid.
+        PluginError
+            when a component is not installed, or cannot be loaded.
         """
         chosen = {field: getattr(case, field).create(kind) for field, kind in COMPONENT_KINDS.items()}
         kernel = compiled_kernel(chosen["kernel"], case.dimension)

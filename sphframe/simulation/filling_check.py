@@ -137,11 +137,13 @@ def check_filling(filling: WallFilling, walls: Sequence[Wall], *, refuse: bool) 
 
     Warns
     -----
-    CaseWarning: with the worst place beside each wall where F deviates by more than 5 %.
+    CaseWarning
+        with the worst place beside each wall where F deviates by more than 5 %.
 
     Raises
     ------
-    InputError: where F deviates by more than 25 %, if ``refuse``.
+    InputError
+        where F deviates by more than 25 %, if ``refuse``.
     """
     deviation = np.abs(filling.deviation)
     messages = []

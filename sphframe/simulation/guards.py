@@ -41,11 +41,13 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array) -> 
 
     Parameters
     ----------
-    lower, upper: (dim,) corners of the domain, m.
+    lower, upper
+        (dim,) corners of the domain, m.
 
     Raises
     ------
-    SimulationError: when something is wrong that the case does not tolerate; the caller adds time and step.
+    SimulationError
+        when something is wrong that the case does not tolerate; the caller adds time and step.
     """
     guards, columns = case.guards, system.columns
     rows, n = system.rows, system.fluid_count
@@ -92,7 +94,8 @@ def check_bodies(system: FluidSystem, lower: Array, upper: Array, spacing: float
 
     Raises
     ------
-    SimulationError: when one does not; the message names it.
+    SimulationError
+        when one does not; the message names it.
     """
     boundary, fastest, deepest = system.boundary, FASTEST_BODY * system.parameters.sound_speed, system.contacts.deepest
     for k, name in enumerate(boundary.bodies):
@@ -166,7 +169,8 @@ def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator | None,
 
     Raises
     ------
-    SimulationError: when they are not finite, negative in spite of ``non_negative``, or do not add up to one in spite
+    SimulationError
+        when they are not finite, negative in spite of ``non_negative``, or do not add up to one in spite
         of ``partition_of_unity``.
     """
     if interpolator is None:

@@ -86,7 +86,8 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
 
     Raises
     ------
-    InputError: when a body is too light, or fluid and ghosts leave empty space beside walls.
+    InputError
+        when a body is too light, or fluid and ghosts leave empty space beside walls.
     """
     dim, spacing = case.dimension, case.particle_spacing
     start = drawn(case, scene, components, parameters)

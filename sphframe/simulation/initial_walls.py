@@ -21,7 +21,8 @@ def initial_boundary(case: Case, scene: Scene, components: Components, parameter
 
     Raises
     ------
-    InputError: when a wall is too thin for the treatment.
+    InputError
+        when a wall is too thin for the treatment.
     """
     interpolator, treatment = components.interpolator, components.wall_treatment
     in_row, of_images = (treatment.geometry is kind for kind in (WallGeometry.ROW, WallGeometry.IMAGES))

@@ -31,11 +31,13 @@ def check_weights(boundary: Boundary, panels: Panels, position: Array, spacing: 
 
     Parameters
     ----------
-    panels: of all walls, as drawn; ``position`` (n, dim) of the fluid particles, m; ``density`` rho0, kg/m^3.
+    panels
+        of all walls, as drawn; ``position`` (n, dim) of the fluid particles, m; ``density`` rho0, kg/m^3.
 
     Raises
     ------
-    InputError: when a body is too light; the message has the least mass.
+    InputError
+        when a body is too light; the message has the least mass.
     """
     from scipy.spatial import cKDTree
 

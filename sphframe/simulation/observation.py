@@ -23,11 +23,17 @@ class Observation:
 
     Attributes
     ----------
-    case, scene: what is simulated. ``components``: the kernel, equation of state, interpolator and integrator.
-    system: fluid particles, ghosts and bodies; ``boundary`` its ghosts: ``position`` and ``mirror`` (g, dim) at
+    case, scene
+        what is simulated. ``components``: the kernel, equation of state, interpolator and integrator.
+    system
+        fluid particles, ghosts and bodies; ``boundary`` its ghosts: ``position`` and ``mirror`` (g, dim) at
         present, ``statuses`` (g,).
-    particle_count: fluid particles at the start, with open ends the most there may be; ``ghost_count``: ghosts.
-    sound_speed: reference sound speed c0, m/s; ``smoothing_length`` h, ``support`` radius of the kernel, m.
+    particle_count
+        fluid particles at the start, with open ends the most there may be.
+    ghost_count
+        ghosts.
+    sound_speed
+        reference sound speed c0, m/s; ``smoothing_length`` h, ``support`` radius of the kernel, m.
     """
 
     def __init__(self, case: Case, scene: Scene, components: Components, system: FluidSystem) -> None:

@@ -25,9 +25,12 @@ class OpenChannel:
 
     Attributes
     ----------
-    ends: the planes. ``capacity``: the largest number of particles; numbers of those that have left are given again.
-    waiting: (n,) whether a particle belongs to the inflow zone and has not entered yet.
-    passed: mass that has entered and that has left, kg. ``memory``: time, and gradient of pressure at the inflow.
+    ends
+        the planes. ``capacity``: the largest number of particles; numbers of those that have left are given again.
+    waiting
+        (n,) whether a particle belongs to the inflow zone and has not entered yet.
+    passed
+        mass that has entered and that has left, kg. ``memory``: time, and gradient of pressure at the inflow.
     """
 
     def __init__(
@@ -146,7 +149,8 @@ class OpenChannel:
 
         Raises
         ------
-        SimulationError: when there would be more particles than the capacity.
+        SimulationError
+            when there would be more particles than the capacity.
         """
         x = position[:, 0]
         entered = np.flatnonzero(self.waiting & (x >= self.ends.inflow))

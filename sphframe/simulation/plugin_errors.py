@@ -16,7 +16,8 @@ def naming_component(case: Case, *, running: bool) -> Iterator[None]:
 
     Raises
     ------
-    BrokenPluginError: when nothing has run yet. SimulationError: when it is ``running``.
+    BrokenPluginError
+        when nothing has run yet. SimulationError: when it is ``running``.
     """
     try:
         yield
@@ -46,7 +47,8 @@ def naming_hook() -> Iterator[None]:
 
     Raises
     ------
-    SimulationError: in place of that exception.
+    SimulationError
+        in place of that exception.
     """
     try:
         yield

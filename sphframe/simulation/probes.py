@@ -33,11 +33,13 @@ class PressureProbes:
 
     Parameters
     ----------
-    probes: in ``dim`` dimensions; a probe with a body is carried by it, one of the names ``bodies``.
+    probes
+        in ``dim`` dimensions; a probe with a body is carried by it, one of the names ``bodies``.
 
     Attributes
     ----------
-    points: (k, dim) as drawn, m.
+    points
+        (k, dim) as drawn, m.
     """
 
     def __init__(self, probes: Sequence[Probe], dim: int, bodies: Sequence[str] = ()) -> None:

@@ -65,22 +65,35 @@ def run(
 
     Parameters
     ----------
-    case: a case, the name of one (``"dam-break"``), a TOML case file, or a NetCDF file of an earlier run to repeat.
-    preset: a named set of the case's parameters, such as ``"paper"``.
-    output: NetCDF file to write; by default a temporary file that is removed when Python ends.
-    threads: threads of the compiled loops; by default all cores.
-    overwrite: whether an existing ``output`` may be replaced.
-    hooks: listeners to the run's events, see :mod:`sphframe.hooks`.
-    checkpoint_every: wall-clock time between checkpoints, s; None for none. See :func:`resume`.
-    checkpoint_interval: simulated time between checkpoints, s; None for none.
-    **parameters: parameters of the case by name, ``interpolator="mls-linear"``, ``particle_spacing=0.01``.
+    case
+        a case, the name of one (``"dam-break"``), a TOML case file, or a NetCDF file of an earlier run to repeat.
+    preset
+        a named set of the case's parameters, such as ``"paper"``.
+    output
+        NetCDF file to write; by default a temporary file that is removed when Python ends.
+    threads
+        threads of the compiled loops; by default all cores.
+    overwrite
+        whether an existing ``output`` may be replaced.
+    hooks
+        listeners to the run's events, see :mod:`sphframe.hooks`.
+    checkpoint_every
+        wall-clock time between checkpoints, s; None for none. See :func:`resume`.
+    checkpoint_interval
+        simulated time between checkpoints, s; None for none.
+    **parameters
+        parameters of the case by name, ``interpolator="mls-linear"``, ``particle_spacing=0.01``.
 
     Raises
     ------
-    InputError, PluginError: when the case or a component is not valid; nothing has been run.
-    OutputError: when the output cannot be written.
-    SimulationError: when the run goes wrong; what was computed until then is in the file.
-    KeyboardInterrupt: at Ctrl-C or SIGTERM, after the step and a checkpoint. Notes of each error that ends a run name
+    InputError, PluginError
+        when the case or a component is not valid; nothing has been run.
+    OutputError
+        when the output cannot be written.
+    SimulationError
+        when the run goes wrong; what was computed until then is in the file.
+    KeyboardInterrupt
+        at Ctrl-C or SIGTERM, after the step and a checkpoint. Notes of each error that ends a run name
         the files that remain.
     """
     source = case if isinstance(case, Case) else os.fspath(case)
@@ -161,20 +174,28 @@ def resume(
 
     Parameters
     ----------
-    path: the output of the run, ``run.nc``, or its checkpoint, ``run.nc.restart``. Both must be there.
-    case: the case, if it is a class or holds functions of your own; by default it is read from the output.
-    trusted: whether the file may name components as ``module:attribute``, whose code is then imported.
-    threads, hooks, checkpoint_every, checkpoint_interval: as for :func:`run`.
+    path
+        the output of the run, ``run.nc``, or its checkpoint, ``run.nc.restart``. Both must be there.
+    case
+        the case, if it is a class or holds functions of your own; by default it is read from the output.
+    trusted
+        whether the file may name components as ``module:attribute``, whose code is then imported.
+    threads, hooks, checkpoint_every, checkpoint_interval
+        as for :func:`run`.
 
     Warns
     -----
-    ResumeWarning: when the versions of sphframe, of a component or of what they compute with have changed.
+    ResumeWarning
+        when the versions of sphframe, of a component or of what they compute with have changed.
 
     Raises
     ------
-    InputError: when there is nothing to resume, or a file is damaged.
-    OutputError: when output and checkpoint do not belong together, or another run is writing the output.
-    SimulationError, KeyboardInterrupt: as for :func:`run`.
+    InputError
+        when there is nothing to resume, or a file is damaged.
+    OutputError
+        when output and checkpoint do not belong together, or another run is writing the output.
+    SimulationError, KeyboardInterrupt
+        as for :func:`run`.
     """
     simulation, writer = prepare_resume(path, case=case, trusted=trusted, threads=threads)
     checkpoints = CheckpointWriter(writer, every=checkpoint_every, interval=checkpoint_interval)

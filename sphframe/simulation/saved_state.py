@@ -15,12 +15,15 @@ def check_saved_state(
 
     Parameters
     ----------
-    particle_count, ghost_count: largest numbers of fluid particles and ghosts.
-    lower, upper: (dim,) corners of the domain, m.
+    particle_count, ghost_count
+        largest numbers of fluid particles and ghosts.
+    lower, upper
+        (dim,) corners of the domain, m.
 
     Raises
     ------
-    InputError: when names or shapes are those of another case, or numbers cannot be those of particles in the domain.
+    InputError
+        when names or shapes are those of another case, or numbers cannot be those of particles in the domain.
     """
     count = len(saved.get("ids", ()))
     expected = {name: array.shape for name, array in own.items()}

@@ -41,7 +41,8 @@ class Shifting:
 
         Raises
         ------
-        InputError: when its walls have no layers of ghosts, without which they look like free surfaces.
+        InputError
+            when its walls have no layers of ghosts, without which they look like free surfaces.
         """
         if case.shifting == 0.0 and case.tensile_control == "off":
             return None

@@ -27,21 +27,34 @@ class Simulation(Observation):
 
     Parameters
     ----------
-    case: what to simulate.
-    threads: threads of the compiled loops; by default all cores. The result has the same bits for any number.
+    case
+        what to simulate.
+    threads
+        threads of the compiled loops; by default all cores. The result has the same bits for any number.
 
     Attributes
     ----------
-    time: s; ``step``: number of steps made; ``time_step``: the last one, s.
-    densities_outside: particles whose density lies outside the band of the case's guards.
-    samples, frames: how many of each have been passed to the hooks.
-    between_steps: whether the state is one that :meth:`state` may save; false while a step is under way.
-    initial_energy: total energy at the start, J.
+    time
+        s.
+    step
+        number of steps made.
+    time_step
+        the last one, s.
+    densities_outside
+        particles whose density lies outside the band of the case's guards.
+    samples, frames
+        how many of each have been passed to the hooks.
+    between_steps
+        whether the state is one that :meth:`state` may save; false while a step is under way.
+    initial_energy
+        total energy at the start, J.
 
     Raises
     ------
-    InputError: when the case holds no fluid or no wall, or contradicts itself.
-    PluginError: when a component cannot be loaded.
+    InputError
+        when the case holds no fluid or no wall, or contradicts itself.
+    PluginError
+        when a component cannot be loaded.
     """
 
     def __init__(self, case: Case, *, threads: int | None = None) -> None:
@@ -78,7 +91,8 @@ class Simulation(Observation):
 
         Raises
         ------
-        SimulationError: when the guards find something wrong in the new state, or a component fails.
+        SimulationError
+            when the guards find something wrong in the new state, or a component fails.
         """
         with self._adding_time_and_step():
             self.time_step = self._next_time_step(self._motion.speed)
@@ -142,7 +156,8 @@ class Simulation(Observation):
 
         Raises
         ------
-        SimulationError: when the run goes wrong. The hooks are called with any error before it is raised here.
+        SimulationError
+            when the run goes wrong. The hooks are called with any error before it is raised here.
         """
         hook = manager.hook
         with deferred_interruption() as interruption:
@@ -195,7 +210,8 @@ class Simulation(Observation):
 
         Raises
         ------
-        InputError: when the state belongs to another case, or is damaged.
+        InputError
+            when the state belongs to another case, or is damaged.
         """
         check_saved_state(state, self.state(), self.particle_count, self.ghost_count, self._lower, self._upper)
         self.system.restore(state)

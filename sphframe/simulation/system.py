@@ -34,13 +34,20 @@ class FluidSystem(PackedSystem):
 
     Attributes
     ----------
-    rows: (n + g, width) packed rows, see :class:`Columns`; the fluid comes first.
-    rates: (n, 2 dim + 1) velocity, acceleration and density rate of the last evaluation.
-    gradient: (n, dim) renormalised density gradient, kg/m^4.
-    ids: (n,) original numbers of the fluid particles, which are kept in spatial order.
-    turns: (n, dim) periods by which each of them has left the box that repeats itself.
-    bodies: the states of the bodies; ``contacts`` between them and walls. ``channel``: its open ends, or None.
-    loads: (walls, 3 or 6) force and moment of the fluid on each wall.
+    rows
+        (n + g, width) packed rows, see :class:`Columns`; the fluid comes first.
+    rates
+        (n, 2 dim + 1) velocity, acceleration and density rate of the last evaluation.
+    gradient
+        (n, dim) renormalised density gradient, kg/m^4.
+    ids
+        (n,) original numbers of the fluid particles, which are kept in spatial order.
+    turns
+        (n, dim) periods by which each of them has left the box that repeats itself.
+    bodies
+        the states of the bodies; ``contacts`` between them and walls. ``channel``: its open ends, or None.
+    loads
+        (walls, 3 or 6) force and moment of the fluid on each wall.
     """
 
     def __init__(

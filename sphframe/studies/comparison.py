@@ -27,11 +27,13 @@ class Comparison:
 
     Attributes
     ----------
-    dataset: over (interpolator, particle_spacing): ``error``, ``processor_time`` (s), ``steps``, ``particles``,
+    dataset
+        over (interpolator, particle_spacing): ``error``, ``processor_time`` (s), ``steps``, ``particles``,
         ``cost`` (us per particle and step), ``energy_excess``, ``fallback`` (% of wet ghosts) and ``completed``;
         ``order`` over (interpolator); ``probe_pressure`` over (interpolator, particle_spacing, probe, probe_time), Pa,
         at times that are common to all runs.
-    report: path of the page.
+    report
+        path of the page.
     """
 
     dataset: xr.Dataset
@@ -62,22 +64,33 @@ def compare(
 
     Parameters
     ----------
-    case, preset, parameters: as for :func:`sphframe.load_case`.
-    interpolators: names of methods.
-    spacings: m; by default the spacing of the case.
-    output: folder for ``comparison.nc``, ``report.html``, ``report.md``, ``figures/``, ``tables/`` and ``runs/``.
-    reference: file of a series of p/(rho g H) over t sqrt(g/H), see :func:`sphframe.analysis.read_reference_series`.
-    probe: name of the probe that is compared with the reference; by default the first.
-    repeats: number of runs with each method at each spacing. The particles start displaced at random, by up to a
+    case, preset, parameters
+        as for :func:`sphframe.load_case`.
+    interpolators
+        names of methods.
+    spacings
+        m; by default the spacing of the case.
+    output
+        folder for ``comparison.nc``, ``report.html``, ``report.md``, ``figures/``, ``tables/`` and ``runs/``.
+    reference
+        file of a series of p/(rho g H) over t sqrt(g/H), see :func:`sphframe.analysis.read_reference_series`.
+    probe
+        name of the probe that is compared with the reference; by default the first.
+    repeats
+        number of runs with each method at each spacing. The particles start displaced at random, by up to a
         fiftieth of a spacing, in all but the first; the dataset then holds ``peak`` and ``impulse`` of each probe in
         each run, and the report their 95 % bands and which methods differ significantly.
-    workers, scheduler, on_progress: see :func:`sphframe.studies.engine.carry_out`.
+    workers, scheduler, on_progress
+        see :func:`sphframe.studies.engine.carry_out`.
 
     Raises
     ------
-    InputError: a method, a spacing or a parameter is not valid.
-    OutputError: the folder cannot be written.
-    SphframeError: a run could not be made. A run that is stopped by its guards raises nothing: it is a result.
+    InputError
+        a method, a spacing or a parameter is not valid.
+    OutputError
+        the folder cannot be written.
+    SphframeError
+        a run could not be made. A run that is stopped by its guards raises nothing: it is a result.
     """
     if not 1 <= repeats <= 1000:
         raise InputError(f"repeats = {repeats}: give a number of runs from 1 to 1000")

@@ -37,13 +37,17 @@ def comparison_dataset(
 
     Parameters
     ----------
-    runs: by method and particle spacing (m), each method with the same spacings, the finest last.
-    reference: series of p/(rho g H) over t sqrt(g/H), or None.
-    probe: the probe to compare with it; by default the first.
+    runs
+        by method and particle spacing (m), each method with the same spacings, the finest last.
+    reference
+        series of p/(rho g H) over t sqrt(g/H), or None.
+    probe
+        the probe to compare with it; by default the first.
 
     Raises
     ------
-    InputError: the case has no probe of this name.
+    InputError
+        the case has no probe of this name.
     """
     methods, spacings = list(dict.fromkeys(m for m, _ in runs)), list(dict.fromkeys(s for _, s in runs))
     first = next(iter(runs.values()))

@@ -43,12 +43,18 @@ class Progress:
 
     Attributes
     ----------
-    total: number of tasks.
-    kept: number of tasks that were done before.
-    done: number of tasks that are done, including those done before.
-    running: completed part (0 to 1) of each running task, by label.
-    part: completed part of the work that was not done before, weighted by expected work.
-    last: label of the task that has just ended, if one has.
+    total
+        number of tasks.
+    kept
+        number of tasks that were done before.
+    done
+        number of tasks that are done, including those done before.
+    running
+        completed part (0 to 1) of each running task, by label.
+    part
+        completed part of the work that was not done before, weighted by expected work.
+    last
+        label of the task that has just ended, if one has.
     """
 
     total: int
@@ -75,20 +81,28 @@ def carry_out(
 
     Parameters
     ----------
-    tasks: with different labels.
-    folder: folder of the results; it is created.
-    workers: number of processes of the local cluster, among which this machine's cores are shared out as threads; by
+    tasks
+        with different labels.
+    folder
+        folder of the results; it is created.
+    workers
+        number of processes of the local cluster, among which this machine's cores are shared out as threads; by
         default one process per core, but not more than tasks: independent runs gain more from processes than from
         threads.
-    scheduler: address of a running dask scheduler, such as ``tcp://127.0.0.1:8786``, instead of a local cluster. Its
+    scheduler
+        address of a running dask scheduler, such as ``tcp://127.0.0.1:8786``, instead of a local cluster. Its
         workers must see ``folder`` under the same path; a task uses as many threads as its worker has.
-    on_progress: called at each change with the :class:`Progress`.
+    on_progress
+        called at each change with the :class:`Progress`.
 
     Raises
     ------
-    InputError: dask.distributed is not installed, the scheduler does not answer, or ``workers`` is out of range.
-    OutputError: the folder cannot be created, another command uses it, or a worker does not see it.
-    SphframeError: raised by a task; the results of the other tasks stay.
+    InputError
+        dask.distributed is not installed, the scheduler does not answer, or ``workers`` is out of range.
+    OutputError
+        the folder cannot be created, another command uses it, or a worker does not see it.
+    SphframeError
+        raised by a task; the results of the other tasks stay.
     """
     if workers is not None and not 1 <= workers <= 1024:
         raise InputError(f"--workers {workers}: give a number of processes from 1 to 1024")

@@ -33,7 +33,8 @@ def ensemble_variables(runs: Mapping[tuple[str, float, int], xr.Dataset]) -> dic
 
     Parameters
     ----------
-    runs: by method, particle spacing (m) and number of the repeat.
+    runs
+        by method, particle spacing (m) and number of the repeat.
     """
     methods, spacings, repeats = (list(dict.fromkeys(names)) for names in zip(*runs, strict=True))
     probes = next(iter(runs.values())).sizes.get("probe", 0)

@@ -25,9 +25,12 @@ class CostTask(Task):
 
     Attributes
     ----------
-    methods: the methods' components and lifts, by the name under which they are reported.
-    after: simulated time of the state at which the methods are timed, s.
-    repeats: number of measurements per method.
+    methods
+        the methods' components and lifts, by the name under which they are reported.
+    after
+        simulated time of the state at which the methods are timed, s.
+    repeats
+        number of measurements per method.
     """
 
     methods: Mapping[str, tuple[Mapping[str, Any], str]]

@@ -28,13 +28,17 @@ def write_report(
 
     Parameters
     ----------
-    preface: paragraphs at the top.
-    facts: what computed the results, by name.
+    preface
+        paragraphs at the top.
+    facts
+        what computed the results, by name.
 
     Raises
     ------
-    InputError: jinja2 is not installed.
-    OutputError: a file cannot be written.
+    InputError
+        jinja2 is not installed.
+    OutputError
+        a file cannot be written.
     """
     claims = _table_of_claims(chapters)
     content = {

@@ -41,20 +41,30 @@ def reproduce(
 
     Parameters
     ----------
-    study: a study, or the name of an installed one.
-    output: folder for ``report.html``, ``report.md``, ``figures/``, ``tables/`` and ``runs/``.
-    only: names of sections; all by default.
-    quick: run at coarse resolutions and for short times, which takes minutes.
-    reference: folder of reference series, see :func:`sphframe.analysis.read_reference_series`. Series that are not
+    study
+        a study, or the name of an installed one.
+    output
+        folder for ``report.html``, ``report.md``, ``figures/``, ``tables/`` and ``runs/``.
+    only
+        names of sections; all by default.
+    quick
+        run at coarse resolutions and for short times, which takes minutes.
+    reference
+        folder of reference series, see :func:`sphframe.analysis.read_reference_series`. Series that are not
         there are left out, and the report names them.
-    workers, scheduler, on_progress: see :func:`sphframe.studies.engine.carry_out`.
+    workers, scheduler, on_progress
+        see :func:`sphframe.studies.engine.carry_out`.
 
     Raises
     ------
-    InputError: a section is unknown, or something is not installed.
-    PluginError: the study is not installed or cannot be used.
-    OutputError: the folder cannot be written.
-    SphframeError: a run raised an error that is not a result in itself.
+    InputError
+        a section is unknown, or something is not installed.
+    PluginError
+        the study is not installed or cannot be used.
+    OutputError
+        the folder cannot be written.
+    SphframeError
+        a run raised an error that is not a result in itself.
     """
     chosen_study = installed_study(study) if isinstance(study, str) else study
     sections = _chosen(chosen_study.sections(), only)

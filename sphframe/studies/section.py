@@ -17,9 +17,12 @@ class Section(NamedTuple):
 
     Attributes
     ----------
-    name: names the section on the command line (``--only``).
-    tasks: returns the tasks; its argument is true for the quick version, at coarse resolutions and for short times.
-    chapter: returns the chapter; its arguments are the results by the labels of the tasks, the reference series, and
+    name
+        names the section on the command line (``--only``).
+    tasks
+        returns the tasks; its argument is true for the quick version, at coarse resolutions and for short times.
+    chapter
+        returns the chapter; its arguments are the results by the labels of the tasks, the reference series, and
         whether it is the quick version.
     """
 

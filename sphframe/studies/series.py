@@ -14,7 +14,8 @@ class Reference:
 
     Attributes
     ----------
-    absent: messages about the series that were requested and are not available.
+    absent
+        messages about the series that were requested and are not available.
     """
 
     def __init__(self, folder: Path | None) -> None:

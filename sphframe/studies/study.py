@@ -35,8 +35,10 @@ def installed_study(name: str | None = None) -> Study:
 
     Raises
     ------
-    InputError: no name is given, and no study is installed or several are.
-    PluginError: ``name`` is not installed or cannot be used, as for :func:`sphframe.create`.
+    InputError
+        no name is given, and no study is installed or several are.
+    PluginError
+        ``name`` is not installed or cannot be used, as for :func:`sphframe.create`.
     """
     if name is None:
         names = [entry.name for entry in available("studies")]

@@ -48,8 +48,10 @@ class Task(ABC):
 
     Attributes
     ----------
-    label: name of the task in messages and reports, and, as a slug, in the name of its file.
-    case_name, parameters: the case, and all its parameters in their JSON form.
+    label
+        name of the task in messages and reports, and, as a slug, in the name of its file.
+    case_name, parameters
+        the case, and all its parameters in their JSON form.
     """
 
     label: str
@@ -151,7 +153,8 @@ def work(task: Task, folder: str, name: str, threads: int, on_part: PartListener
 
     Raises
     ------
-    InputError: ``name``, the expected name of the result, is not the name that this worker computes.
+    InputError
+        ``name``, the expected name of the result, is not the name that this worker computes.
     """
     if task.name != name:
         raise InputError(

@@ -63,7 +63,8 @@ def evaluator(
 
     Raises
     ------
-    BrokenPluginError: by that function, when something is written before or after an array.
+    BrokenPluginError
+        by that function, when something is written before or after an array.
     """
     loop = point_loop(method, dim, kernel)
 

@@ -25,14 +25,22 @@ class Judgement:
 
     Attributes
     ----------
-    status: (m,), see :class:`sphframe.Status`; DRY without neighbours.
-    neighbours: (m,), their number.
-    total: (m,), sum_j Phi_j.
-    gain: (m,), the sum of the absolute weights, by which errors of the values are magnified at most.
-    noise: (m,), the root of the sum of the squares of the weights, the factor for independent errors.
-    error: (m,), interpolated less stored pressure, Pa.
-    inside: (m,), whether the particle is in the midst of the fluid.
-    scale: root mean square of the stored pressures, Pa.
+    status
+        (m,), see :class:`sphframe.Status`; DRY without neighbours.
+    neighbours
+        (m,), their number.
+    total
+        (m,), sum_j Phi_j.
+    gain
+        (m,), the sum of the absolute weights, by which errors of the values are magnified at most.
+    noise
+        (m,), the root of the sum of the squares of the weights, the factor for independent errors.
+    error
+        (m,), interpolated less stored pressure, Pa.
+    inside
+        (m,), whether the particle is in the midst of the fluid.
+    scale
+        root mean square of the stored pressures, Pa.
     """
 
     status: IntArray

@@ -153,14 +153,19 @@ def kernel_value(kernel: Kernel, distance: ArrayLike, smoothing_length: float, d
 
     Parameters
     ----------
-    kernel: any kernel.
-    distance: r >= 0, in m; any shape.
-    smoothing_length: h, in m.
-    dim: 1, 2 or 3.
+    kernel
+        any kernel.
+    distance
+        r >= 0, in m; any shape.
+    smoothing_length
+        h, in m.
+    dim
+        1, 2 or 3.
 
     Returns
     -------
-    W, in m^-dim, with the shape of ``distance``.
+    Array
+        W, in m^-dim, with the shape of ``distance``.
 
     Examples
     --------

@@ -23,10 +23,14 @@ class Cloud:
 
     Attributes
     ----------
-    offsets: (n, dim), m: from the evaluation point, each shorter than ``support``.
-    volumes: (n,), m^dim.
-    support: cut-off radius R, m.
-    lift: (dim,), m: from the evaluation point to the ghost, for methods that extrapolate.
+    offsets
+        (n, dim), m: from the evaluation point, each shorter than ``support``.
+    volumes
+        (n,), m^dim.
+    support
+        cut-off radius R, m.
+    lift
+        (dim,), m: from the evaluation point to the ghost, for methods that extrapolate.
     """
 
     offsets: Array
@@ -264,12 +268,18 @@ def build(family: str, dim: int, seed: int, *, spacing: float = 1.0, ratio: floa
 
     Parameters
     ----------
-    family: a key of :data:`FAMILIES`.
-    dim: 2 or 3.
-    seed: of the random numbers.
-    spacing: particle spacing, m.
-    ratio: a third of the cut-off radius over the spacing, the h/dx of a kernel with R = 3h.
-    lifted: whether the ghost lies away from the evaluation point.
+    family
+        a key of :data:`FAMILIES`.
+    dim
+        2 or 3.
+    seed
+        of the random numbers.
+    spacing
+        particle spacing, m.
+    ratio
+        a third of the cut-off radius over the spacing, the h/dx of a kernel with R = 3h.
+    lifted
+        whether the ghost lies away from the evaluation point.
     """
     rng = np.random.default_rng(seed)
     radius = 3.0 * ratio

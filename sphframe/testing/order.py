@@ -141,7 +141,8 @@ def verify_order(names: Sequence[str] = (), *, progress: Callable[[str], None] |
 
     Raises
     ------
-    InputError: when something else than an interpolation method or a wall treatment is named.
+    InputError
+        when something else than an interpolation method or a wall treatment is named.
     """
     chosen = choices(names)
     for kind, label, _, _ in chosen:
@@ -170,11 +171,18 @@ def measure_order(
 
     Parameters
     ----------
-    name: how the report calls it.
-    walls: some of ``straight``, ``circle`` and ``wavy``; ``arrangements``: some of :data:`ARRANGEMENTS`.
-    slips: ``no``, ``free`` or both: the first gives pressure, divergence, viscosity and shear, the second the rest.
-    counts: spacings over the unit of length, at least two.
-    progress: called with a line of text before each wall.
+    name
+        how the report calls it.
+    walls
+        some of ``straight``, ``circle`` and ``wavy``.
+    arrangements
+        some of :data:`ARRANGEMENTS`.
+    slips
+        ``no``, ``free`` or both: the first gives pressure, divergence, viscosity and shear, the second the rest.
+    counts
+        spacings over the unit of length, at least two.
+    progress
+        called with a line of text before each wall.
     """
     errors: dict[str, dict[tuple[str, str], list[float]]] = {}
     for wall in walls:

@@ -43,11 +43,16 @@ class Particles:
 
     Attributes
     ----------
-    position: (n, d), m.
-    volume: (n,), m^d.
-    pressure: (n,), Pa.
-    spacing: particle spacing, m.
-    smoothing_length: m, where the file gives it.
+    position
+        (n, d), m.
+    volume
+        (n,), m^d.
+    pressure
+        (n,), Pa.
+    spacing
+        particle spacing, m.
+    smoothing_length
+        m, where the file gives it.
     """
 
     position: Array
@@ -73,15 +78,21 @@ def read_particles(
 
     Parameters
     ----------
-    path: ``.nc``, ``.vtk``, ``.vtu``, ``.vtp``, ``.hdf5`` or ``.h5``.
-    time: s; the frame of a file of several that is nearest to it, by default the last one.
-    spacing: m; by default that of the file, or the median distance of nearest neighbours.
-    array: of a file of PySPH, the particle array; by default ``fluid``, or the only one.
-    fields: other names of the fields, by the keys of :data:`NAMES`.
+    path
+        ``.nc``, ``.vtk``, ``.vtu``, ``.vtp``, ``.hdf5`` or ``.h5``.
+    time
+        s; the frame of a file of several that is nearest to it, by default the last one.
+    spacing
+        m; by default that of the file, or the median distance of nearest neighbours.
+    array
+        of a file of PySPH, the particle array; by default ``fluid``, or the only one.
+    fields
+        other names of the fields, by the keys of :data:`NAMES`.
 
     Raises
     ------
-    InputError: when the file cannot be read, or has no pressure.
+    InputError
+        when the file cannot be read, or has no pressure.
     """
     source = Path(path)
     readers: dict[str, Callable[[], dict[str, Any]]] = {

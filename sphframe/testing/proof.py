@@ -48,7 +48,8 @@ def prove(
 
     Raises
     ------
-    BrokenPromiseError: when there is one, with the complaint about the smallest such cloud, and the cloud as code.
+    BrokenPromiseError
+        when there is one, with the complaint about the smallest such cloud, and the cloud as code.
     """
     lifted = extrapolates(method)
     for cloud in catalogue(dim, families, lifted=lifted):

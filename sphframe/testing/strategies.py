@@ -15,12 +15,18 @@ def clouds(
 
     Parameters
     ----------
-    dim: 2 or 3.
-    families: which of :data:`sphframe.testing.FAMILIES` to draw from.
-    lifted: whether the ghost lies away from the evaluation point, as for a method that extrapolates.
-    largest: the largest ratio of a third of the cut-off radius to the particle spacing, above 1; by default 3 in two
+    dim
+        2 or 3.
+    families
+        which of :data:`sphframe.testing.FAMILIES` to draw from.
+    lifted
+        whether the ghost lies away from the evaluation point, as for a method that extrapolates.
+    largest
+        the largest ratio of a third of the cut-off radius to the particle spacing, above 1; by default 3 in two
         dimensions and 1.4 in three.
 
+    Notes
+    -----
     The particle spacing lies between a micrometre and a kilometre.
     """
     family = draw(st.sampled_from(tuple(families)))

@@ -46,7 +46,8 @@ class Check:
 
         Raises
         ------
-        BrokenPromiseError: when the component does not have the property.
+        BrokenPromiseError
+            when the component does not have the property.
         """
         if self.dim is None:
             self.function(component)
@@ -72,13 +73,16 @@ def checks_of(component: Any, *, promised_only: bool = True) -> list[Check]:
 
     Parameters
     ----------
-    component: an interpolation method, wall treatment, kernel, equation of state, integrator, rigid body,
+    component
+        an interpolation method, wall treatment, kernel, equation of state, integrator, rigid body,
         body force or case.
-    promised_only: leave out the checks of traits that a method does not declare.
+    promised_only
+        leave out the checks of traits that a method does not declare.
 
     Raises
     ------
-    TypeError: when it is none of these.
+    TypeError
+        when it is none of these.
     """
     if isinstance(component, BoundaryInterpolator):
         return _checks_of_method(component, promised_only)
@@ -131,13 +135,16 @@ def parametrize_with_checks(
 
     Parameters
     ----------
-    components: instances to be checked; the test ids show them as code.
-    expected_failed_checks: names of checks (``"continuity"``, or ``"continuity-3d"`` for one dimension), each with the
+    components
+        instances to be checked; the test ids show them as code.
+    expected_failed_checks
+        names of checks (``"continuity"``, or ``"continuity-3d"`` for one dimension), each with the
         reason why it fails, or a function that returns them for a component; a check that then succeeds is an error.
 
     Raises
     ------
-    ValueError: when no component has a check of that name.
+    ValueError
+        when no component has a check of that name.
 
     Examples
     --------

@@ -116,18 +116,23 @@ def verify(
 
     Parameters
     ----------
-    names: registered names, ``module:attribute``, or either with options as in ``sfdi[form=printed]``; of interpolation
+    names
+        registered names, ``module:attribute``, or either with options as in ``sfdi[form=printed]``; of interpolation
         methods, wall treatments, kernels, equations of state, integrators, rigid bodies, body forces and cases; or
         a kind, such as ``wall_treatments``, for all that are installed, once for each value of an option that has a
         list of values. Without names: all interpolation methods and wall treatments.
-    progress: called with a line of text before each component and check.
-    callback: called with the label of the component and the result after each check.
-    expected_failed_checks: checks that are expected to fail, such as ``"continuity-3d"`` or ``"continuity"``, each with
+    progress
+        called with a line of text before each component and check.
+    callback
+        called with the label of the component and the result after each check.
+    expected_failed_checks
+        checks that are expected to fail, such as ``"continuity-3d"`` or ``"continuity"``, each with
         the reason; one that succeeds is reported as broken.
 
     Raises
     ------
-    UnknownComponentError: when nothing has one of the names.
+    UnknownComponentError
+        when nothing has one of the names.
     """
     expected = expected_failed_checks or {}
 
@@ -157,7 +162,8 @@ def parse_label(label: str) -> tuple[str, dict[str, Any]]:
 
     Raises
     ------
-    InputError: when it is of another form.
+    InputError
+        when it is of another form.
     """
     match = re.fullmatch(r"([^\[\]]+)(?:\[(.*)\])?", label)
     if not match:

@@ -37,13 +37,16 @@ def wall_integrals(kernel: Kernel, smoothing_length: float, points: Array, start
 
     Parameters
     ----------
-    kernel: any kernel. smoothing_length: h, in m. points: (n, 2), in m.
-    starts, ends: the ends of the edges, (e, 2), in m. They form closed polygons; from start to end the fluid is on the
+    kernel
+        any kernel. smoothing_length: h, in m. points: (n, 2), in m.
+    starts, ends
+        the ends of the edges, (e, 2), in m. They form closed polygons; from start to end the fluid is on the
         left, so that outlines run anticlockwise and those of obstacles clockwise.
 
     Returns
     -------
-    Arrays of n points; a point that sees no edge has gamma 1 or 0, gradient 0 and moment 0 or 1.
+    WallIntegrals
+        Arrays of n points; a point that sees no edge has gamma 1 or 0, gradient 0 and moment 0 or 1.
 
     Examples
     --------

@@ -17,9 +17,12 @@ class Variant:
 
     Attributes
     ----------
-    method, form: the interpolation method, and the option ``form`` of SFDI.
-    lift: ``mirror``, with interpolated ghost velocities, or ``balanced``, with corrected ones.
-    published: whether the paper compares it.
+    method, form
+        the interpolation method, and the option ``form`` of SFDI.
+    lift
+        ``mirror``, with interpolated ghost velocities, or ``balanced``, with corrected ones.
+    published
+        whether the paper compares it.
     """
 
     method: str

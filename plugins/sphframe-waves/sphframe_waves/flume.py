@@ -124,8 +124,14 @@ def run_up_along(toe: Array, upward: Array, depth: float, spacing: float, ratio:
 
     Parameters
     ----------
-    toe: point (2,) of the wall on the bed, m; ``upward`` (2,) unit vector along the wall.
-    depth: m; ``spacing``: m; ``ratio``: smoothing length over spacing.
+    toe
+        point (2,) of the wall on the bed, m; ``upward`` (2,) unit vector along the wall.
+    depth
+        m.
+    spacing
+        m.
+    ratio
+        smoothing length over spacing.
     """
     h, step = ratio * spacing, 0.25 * spacing
     inward = np.array([-upward[1], upward[0]])

@@ -23,8 +23,16 @@ class RegularWavePaddle(RigidBody):
 
     Attributes
     ----------
-    wave_height: H from trough to crest, m; ``period``: T, s; ``depth``: d, m; ``gravity``: m/s^2.
-    ramp_periods: periods over which the motion grows.
+    wave_height
+        H from trough to crest, m.
+    period
+        T, s.
+    depth
+        d, m.
+    gravity
+        m/s^2.
+    ramp_periods
+        periods over which the motion grows.
 
     Source: F. Biesel, F. Suquet, Les appareils generateurs de houle en laboratoire, La Houille Blanche (1951),
     doi:10.1051/lhb/1951033.

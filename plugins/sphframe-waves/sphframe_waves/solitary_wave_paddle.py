@@ -29,9 +29,17 @@ class SolitaryWavePaddle(RigidBody):
 
     Attributes
     ----------
-    wave_height: A, m; ``depth``: d, m; ``gravity``: m/s^2.
-    theory: ``"rayleigh"`` or ``"boussinesq"``.
+    wave_height
+        A, m.
+    depth
+        d, m.
+    gravity
+        m/s^2.
+    theory
+        ``"rayleigh"`` or ``"boussinesq"``.
 
+    Notes
+    -----
     Departs from the paper, which names no paddle.
 
     Source: D. G. Goring, Tsunamis: the propagation of long waves onto a shelf, PhD thesis, Caltech (1978),

@@ -22,11 +22,16 @@ class Method:
 
     Attributes
     ----------
-    name: of the component.
-    kind: ``interpolators`` or ``wall_treatments``.
-    distribution: what installs it, with the version.
-    description: its documentation: equation, source, departures and known failures.
-    traits: what it promises, by name.
+    name
+        of the component.
+    kind
+        ``interpolators`` or ``wall_treatments``.
+    distribution
+        what installs it, with the version.
+    description
+        its documentation: equation, source, departures and known failures.
+    traits
+        what it promises, by name.
     """
 
     name: str
@@ -56,7 +61,8 @@ class Benchmarked(NamedTuple):
 
         Raises
         ------
-        InputError: the case does not accept the method.
+        InputError
+            the case does not accept the method.
         """
         parameters = {**self.benchmark.parameters, **method.parameters, **displaced(seed)}
         return self.model(**parameters, particle_spacing=spacing)
@@ -69,8 +75,10 @@ def installed_methods(names: Sequence[str] = ()) -> list[Method]:
 
     Raises
     ------
-    InputError: a name is not that of a method.
-    PluginError: a named one cannot be used.
+    InputError
+        a name is not that of a method.
+    PluginError
+        a named one cannot be used.
     """
     entries = {
         entry.name: entry
@@ -104,7 +112,8 @@ def installed_benchmarks(names: Sequence[str] = ()) -> list[Benchmarked]:
 
     Raises
     ------
-    InputError: a name is not that of a benchmark, or two cases have benchmarks of one name.
+    InputError
+        a name is not that of a benchmark, or two cases have benchmarks of one name.
     """
     found: dict[str, Benchmarked] = {}
     for entry in available("cases"):

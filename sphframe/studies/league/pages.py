@@ -49,8 +49,10 @@ def write_pages(
 
     Raises
     ------
-    InputError: jinja2 or matplotlib is not installed.
-    OutputError: a file cannot be written.
+    InputError
+        jinja2 or matplotlib is not installed.
+    OutputError
+        a file cannot be written.
     """
     cells = {(m.name, b.name): _cell(dataset, m.name, b.name) for m in methods for b in benchmarks}
     by_name = {method.name: method for method in methods}

@@ -50,18 +50,25 @@ def rank(
 
     Parameters
     ----------
-    output: folder for ``index.html``, ``table.csv``, ``table.nc``, ``table.md``, ``provenance.json``, ``figures/`` and
+    output
+        folder for ``index.html``, ``table.csv``, ``table.nc``, ``table.md``, ``provenance.json``, ``figures/`` and
         ``runs/``.
-    methods, benchmarks: names; by default all that are installed.
-    quick: run at the coarsest particle spacing of each benchmark alone, once.
-    repeats: number of runs at the coarsest spacing, with particles displaced at random by up to a fiftieth of a
+    methods, benchmarks
+        names; by default all that are installed.
+    quick
+        run at the coarsest particle spacing of each benchmark alone, once.
+    repeats
+        number of runs at the coarsest spacing, with particles displaced at random by up to a fiftieth of a
         spacing in all but the first; by default 3, with ``quick`` 1. Differences within their spread are ties.
-    workers, scheduler, on_progress: see :func:`sphframe.studies.engine.carry_out`.
+    workers, scheduler, on_progress
+        see :func:`sphframe.studies.engine.carry_out`.
 
     Raises
     ------
-    InputError: a name is not known, or a number is out of range.
-    OutputError: the folder cannot be written.
+    InputError
+        a name is not known, or a number is out of range.
+    OutputError
+        the folder cannot be written.
     """
     count = repeats if repeats is not None else 1 if quick else 3
     if not 1 <= count <= 100:

@@ -36,14 +36,17 @@ def league_dataset(
 
     Parameters
     ----------
-    resolutions, repeats: numbers of particle spacings, and of runs at the coarsest of them.
-    results: attributes of the results, see :class:`ScoreTask`, for the runs that there are.
+    resolutions, repeats
+        numbers of particle spacings, and of runs at the coarsest of them.
+    results
+        attributes of the results, see :class:`ScoreTask`, for the runs that there are.
 
     Returns
     -------
-    ``error`` of each run; ``score``, the mean error at the finest spacing that a benchmark has, NaN where a run did
-    not complete; ``spread``, relative, from the repeated runs at the coarsest; ``rank``, 0 where a method is not
-    applicable; ``order`` of convergence; ``outcome`` and ``message``.
+    xr.Dataset
+        ``error`` of each run; ``score``, the mean error at the finest spacing that a benchmark has, NaN where a run did
+        not complete; ``spread``, relative, from the repeated runs at the coarsest; ``rank``, 0 where a method is not
+        applicable; ``order`` of convergence; ``outcome`` and ``message``.
     """  # fmt: skip
     shape = (len(methods), len(benchmarks), resolutions, repeats)
     error, outcome = np.full(shape, np.nan), np.full(shape, "", dtype=object)

@@ -30,9 +30,12 @@ def ranks(error: Array, spread: Array, repeats: int) -> IntArray:
 
     Parameters
     ----------
-    error: (methods,) mean errors; NaN for a run that failed, which is behind all others.
-    spread: (methods,) standard deviations of a single run over its error; NaN counts as no spread.
-    repeats: number n of runs from which the spread was found.
+    error
+        (methods,) mean errors; NaN for a run that failed, which is behind all others.
+    spread
+        (methods,) standard deviations of a single run over its error; NaN counts as no spread.
+    repeats
+        number n of runs from which the spread was found.
 
     Examples
     --------

@@ -67,7 +67,8 @@ def evaluator_of(method: BoundaryInterpolator, dim: int, garbage: float = np.nan
 
     Raises
     ------
-    BrokenPromiseError: the weights function cannot be made.
+    BrokenPromiseError
+        the weights function cannot be made.
     """
     try:
         return evaluator(method, dim, KERNEL.get(), garbage=garbage)

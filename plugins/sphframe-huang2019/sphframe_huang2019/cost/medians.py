@@ -21,10 +21,14 @@ class Medians:
 
     Attributes
     ----------
-    fill, step: time of filling all ghosts once, and of one whole step, s.
-    fill_ratio, step_ratio: both over those of improved Shepard in the same repeat.
-    fill_spread, step_spread: distance of the quartiles over the median.
-    points, neighbours: wet ghosts, and their mean number of neighbours.
+    fill, step
+        time of filling all ghosts once, and of one whole step, s.
+    fill_ratio, step_ratio
+        both over those of improved Shepard in the same repeat.
+    fill_spread, step_spread
+        distance of the quartiles over the median.
+    points, neighbours
+        wet ghosts, and their mean number of neighbours.
     """
 
     fill: float
