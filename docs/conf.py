@@ -9,7 +9,11 @@ from nbclient import NotebookClient
 
 import sphframe
 
-sys.path.insert(0, str(Path(__file__).parent))  # the extension `equations`
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE))
+import tables  # noqa: E402
+
+tables.write(HERE / "generated")
 
 project = "sphframe"
 author = "The sphframe developers"
@@ -24,13 +28,7 @@ extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ex
 html_math_renderer = "svg"
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3
-include_patterns = [
-    "index.md", "commands.md", "choosing.md",
-    "shapes.md", "methods.md", "walls.md", "order.md", "flows.md", "theory/*.md",
-    "gallery.md", "gallery_shapes.md", "notebooks/*.ipynb",
-    "tutorial_plugin.md", "tutorial_treatment.md", "write_a_study.md", "api.md", "comparison.md", "performance.md",
-    "reproduction/*.md", "development.md",
-]  # fmt: skip
+exclude_patterns = ["generated", "pages"]  # parts of pages, and pages that are complete
 nb_execution_mode = os.environ.get("SPHFRAME_DOCS_NOTEBOOKS", "force")  # "off" builds the pages without running them
 nb_execution_raise_on_error = True
 nb_execution_in_temp = True
@@ -39,6 +37,8 @@ nb_execution_timeout = -1  # a slow machine is no error
 NotebookClient.__init__ = functools.partialmethod(NotebookClient.__init__, startup_timeout=1800, iopub_timeout=1800)
 nb_merge_streams = True
 autodoc_typehints = "description"
+autodoc_typehints_description_target = "documented"
+autodoc_class_signature = "separated"
 napoleon_use_ivar = True  # one entry for an attribute, also where it is a field of a tuple
 autodoc_member_order = "alphabetical"
 toc_object_entries_show_parents = "hide"

@@ -14,9 +14,10 @@ import pytest
 import typer.main
 
 from sphframe.boundary.operator import operator
-from sphframe.cases import load_case
+from sphframe.cases import Custom, load_case, parameters_of
 from sphframe.cli.app import app
 from sphframe.cli.values import read_assignments
+from sphframe.geometry import SHAPES
 from sphframe.interfaces import EvaluationPoint
 from sphframe.registry import available, create, load
 
@@ -51,7 +52,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     ],
 )
 def test_every_public_name_is_documented(site: Path, module: str) -> None:
-    page = (site / "api.html").read_text(encoding="utf-8")
+    page = "".join(page.read_text(encoding="utf-8") for page in (site / "api").glob("*.html"))
     public = importlib.import_module(module).__all__
     homes = {module, "sphframe", "sphframe.interfaces"}  # what these offer themselves is documented once, there
     missing = [name for name in public if not any(f'id="{home}.{name}"' in page for home in homes)]
@@ -109,9 +110,31 @@ def test_commands_in_the_docs_are_understood(line: str) -> None:
 def test_cases_of_the_gallery_of_shapes_can_be_run(path: Path) -> None:
     load_case(path)
     assert path.with_suffix(".png").is_file(), "draw it by python docs/shapes/draw.py"
-    page = (DOCS / "gallery_shapes.md").read_text(encoding="utf-8")
-    assert f"shapes/{path.name}" in page
-    assert f"shapes/{path.stem}.png" in page
+    assert path.stem in SHAPES
+
+
+def test_every_key_option_and_name_of_the_tables_has_a_meaning(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("sphinx")
+    monkeypatch.syspath_prepend(str(DOCS))
+    importlib.import_module("tables").write(tmp_path)
+    pages = {page.stem: page.read_text(encoding="utf-8") for page in tmp_path.glob("*.md")}
+    lines = [line for page in pages.values() for line in page.splitlines() if line.startswith("|")]
+    assert not [line for line in lines if line.endswith("|  |")]
+    for parameter in parameters_of(Custom):
+        assert f"| `{parameter.name}` |" in pages["case"]
+    for name, model in SHAPES.items():
+        section = pages["shapes"].partition(f"## {name}\n")[2].partition("\n## ")[0]
+        assert section
+        assert all(f"| `{field}` |" in section for field, info in model.model_fields.items() if info.is_required())
+    for kind in ("interpolators", "wall_treatments", "kernels", "rigid_bodies", "body_forces", "integrators", "cases"):
+        assert all(f"| `{entry.name}` |" in pages[kind] for entry in available(kind))
+
+
+def test_the_pages_need_no_network(site: Path) -> None:
+    for page in site.rglob("*.html"):
+        text = page.read_text(encoding="utf-8")
+        assert not re.findall(r"<(?:script|img|link)[^>]*(?:src|href)=\"(?:https?:)?//[^\"]*\"", text), page
+        assert text.count('class="math"') == text.count('<svg role="img"'), f"{page}: an equation is not drawn"
 
 
 METHODS = [entry.name for entry in available("interpolators") if (ROOT / "plugins" / entry.distribution).is_dir()]
@@ -128,7 +151,7 @@ def rows(page: str, count: int) -> dict[str, list[str]]:
 @pytest.mark.parametrize("name", METHODS)
 def test_every_method_has_a_page_with_its_equation_and_source(site: Path, name: str) -> None:
     page = (site / "theory" / f"{name}.html").read_text(encoding="utf-8")
-    assert 'class="math notranslate' in page
+    assert '<div class="math"><svg' in page
     assert "https://doi.org/10." in page
     for part in ("Properties.", "Limits.", "Departs from the paper.", "Source."):
         assert f"<strong>{part}</strong>" in page

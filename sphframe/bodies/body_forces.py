@@ -16,7 +16,13 @@ from sphframe.interfaces.body_force import BodyForce
 @final
 @dataclass(frozen=True)
 class UniformForce(BodyForce):
-    """A constant ``vector`` of acceleration, m/s^2."""
+    """A constant ``vector`` of acceleration, m/s^2.
+
+    Attributes
+    ----------
+    vector
+        (dim,) m/s^2; zero by default.
+    """
 
     vector: tuple[float, ...] = ()
 

@@ -16,6 +16,13 @@ class Prescribed(RigidBody):
     """A body moved by ``function``: time (s) -> displacement, velocity and acceleration in generalised coordinates.
 
     Each is a sequence of three numbers, or of six in 3-D, as in :class:`Motion`; the three must be consistent.
+
+    Attributes
+    ----------
+    function
+        the motion; only in Python, since a case file is data.
+    centre
+        about which the body turns, m.
     """
 
     function: Callable[[float], tuple[object, object, object]]

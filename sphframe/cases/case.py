@@ -41,6 +41,7 @@ class Guards(BaseModel):
     fallbacks: Literal["stop", "count"] = "count"
     """when the share of wet ghosts that use the interpolator's fallback exceeds the limit: stop, or only count them"""
     fallback_limit: float = Field(default=0.5, ge=0, le=1)
+    """share of wet ghosts"""
 
     @model_validator(mode="after")
     def _band_holds_the_reference(self) -> Self:

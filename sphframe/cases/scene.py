@@ -17,8 +17,11 @@ class Probe(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     name: str = Field(min_length=1, max_length=64)
+    """name of the probe in outputs"""
     position: tuple[float, ...] = Field(min_length=2, max_length=3)
+    """where it is, m: on a wall, on its wet side"""
     radius: Annotated[float, Field(ge=0)] = 0.0
+    """of the disc over which it averages, m; 0 for a point"""
     tangent: Annotated[tuple[float, ...], Field(min_length=2, max_length=3)] | None = None
     """direction along the wall, of any length, needed for a disc"""
     body: str | None = None
@@ -39,7 +42,9 @@ class Gauge(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     name: str = Field(min_length=1, max_length=64)
+    """name of the gauge in outputs"""
     position: tuple[float, ...] = Field(min_length=1, max_length=2)
+    """horizontal position, m: [x] in 2-D, [x, y] in 3-D"""
     body: str | None = None
     """name of the body with which the gauge moves horizontally; None means a gauge at rest"""
 
@@ -50,9 +55,13 @@ class WallPart(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     name: str = Field(min_length=1, max_length=64)
+    """name of the part in outputs"""
     wall: str
+    """name of the wall"""
     lower: tuple[float, ...] = Field(min_length=2, max_length=3)
+    """corner of the box with the smallest coordinates, as drawn, m"""
     upper: tuple[float, ...] = Field(min_length=2, max_length=3)
+    """corner of the box with the largest coordinates, m"""
 
 
 @dataclass(frozen=True)

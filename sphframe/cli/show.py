@@ -31,6 +31,10 @@ def show_command(name: str, preset: str | None) -> None:
         _show_case(model, name, load_case(name, preset) if preset else None)
 
 
+_OPTIONS = re.compile(r"(?:Attributes|Parameters)\n-+\n(.*?)(?=\n\n\w[^\n]*\n---|\n\n\n|\Z)", flags=re.DOTALL)
+"""the section of a docstring that explains the options"""
+
+
 def _show_case(model: type[Case], name: str, case: Case | None) -> None:
     """Print the parameters with their values in ``case``, or with their defaults; the case's own come first."""
     console = Console(markup=False, highlight=False)
@@ -55,9 +59,21 @@ def _show_component(kind: str, name: str) -> None:
     console.print(f"{name}, one of {kind}\n", markup=False)
     console.print(_prose(component.__doc__) + "\n", markup=False)
     parameters = inspect.signature(component).parameters if inspect.isclass(component) else {}
+    table, told = Table(box=None, pad_edge=False), meanings(component)
+    for heading in ("option", "default", "meaning"):
+        table.add_column(heading, overflow="fold")
     for parameter in parameters.values():
-        default = "" if parameter.default is parameter.empty else f" = {parameter.default!r}"
-        console.print(f"  {parameter.name}{default}", markup=False)
+        default = "" if parameter.default is parameter.empty else repr(parameter.default)
+        table.add_row(parameter.name, Text(default), Text(told.get(parameter.name, "")))
+    if parameters:
+        console.print(table)
+
+
+def meanings(component: type) -> dict[str, str]:
+    """Return what the docstring of ``component`` says about its options, below "Attributes" or "Parameters"."""
+    section = re.search(_OPTIONS, _plain(component.__doc__))
+    items = re.findall(r"^(\w[\w, ]*)\n((?: {4}.*\n?)+)", section[1] if section else "", flags=re.MULTILINE)
+    return {name: " ".join(meaning.split()) for names, meaning in items for name in names.split(", ")}
 
 
 def _show_shape(name: str) -> None:
@@ -71,10 +87,16 @@ def _show_shape(name: str) -> None:
     console.print(f"\nThe shapes: {', '.join(SHAPES)}", markup=False)
 
 
+def _plain(docstring: str | None) -> str:
+    """Return a docstring without the markup of names."""
+    return re.sub(r":\w+:`~?([^`]+)`", r"\1", inspect.cleandoc(docstring or "")).replace("``", "")
+
+
 def _prose(docstring: str | None) -> str:
-    """A docstring without examples and markup: prose paragraphs on one line, equations and lists unchanged."""
-    text = inspect.cleandoc(docstring or "").partition("Examples\n---")[0].strip()
-    text = re.sub(r":\w+:`~?([^`]+)`", r"\1", text).replace("``", "")
+    """A docstring without options, examples and markup: prose paragraphs on one line, equations and lists unchanged."""
+    text = re.sub(_OPTIONS, "", _plain(docstring).partition("Examples\n---")[0]).strip()
+    text = re.sub(r"^Notes\n-+\n|^::\n\n", "", text, flags=re.MULTILINE)
+    text = re.sub(r"\n{3,}", "\n\n", text).replace("::\n", ":\n")
     as_written = re.compile(r"^\s|\n\s|\n---")
     blocks = (block if as_written.search(block) else " ".join(block.split()) for block in text.split("\n\n"))
     return "\n\n".join(blocks)

@@ -26,6 +26,11 @@ class Linear(EquationOfState):
 
     Source: Molteni & Colagrossi (2009), doi:10.1016/j.cpc.2008.12.004.
 
+    Attributes
+    ----------
+    background_pressure
+        p_b, Pa: the pressure at the reference density.
+
     Examples
     --------
     >>> Linear().pressure_function()(1001.0, 1000.0, 40.0)

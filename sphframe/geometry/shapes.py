@@ -37,6 +37,7 @@ class Shape(BaseModel, ABC):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     shape: str
+    """kind of the shape, by which a table chooses it"""
 
     @property
     def dimension(self) -> int:
@@ -93,6 +94,7 @@ class Polygon(Shape):
 
     shape: Literal["polygon"] = "polygon"
     points: tuple[Point, ...] = Field(min_length=3)
+    """corners, m, three or more, in either sense of rotation"""
 
     def geometry(self, tolerance: float) -> shapely.Polygon:  # noqa: D102
         return area_within(self.points)
@@ -109,6 +111,7 @@ class Polyline(Shape):
 
     shape: Literal["polyline"] = "polyline"
     points: tuple[Point, ...] = Field(min_length=2)
+    """points of the line, m, two or more"""
 
     def geometry(self, tolerance: float) -> shapely.LineString:  # noqa: D102
         return line_through(self.points)
@@ -127,7 +130,9 @@ class Box(Shape):
 
     shape: Literal["box"] = "box"
     lower: tuple[float, ...] = Field(min_length=2, max_length=3)
+    """corner with the smallest coordinates, m"""
     upper: tuple[float, ...] = Field(min_length=2, max_length=3)
+    """corner with the largest coordinates, m"""
 
     @property
     def dimension(self) -> int:  # noqa: D102
@@ -161,7 +166,9 @@ class Circle(Shape):
 
     shape: Literal["circle"] = "circle"
     centre: Point
+    """centre, m"""
     radius: Length
+    """radius, m"""
 
     def geometry(self, tolerance: float) -> shapely.Polygon:  # noqa: D102
         return area_within(self.centre + self.radius * unit_circle(tolerance / self.radius))
@@ -184,8 +191,11 @@ class Ellipse(Shape):
 
     shape: Literal["ellipse"] = "ellipse"
     centre: Point
+    """centre, m"""
     semi_axes: tuple[Length, Length]
+    """half of its two diameters, m"""
     angle: float = 0.0
+    """of the first semi-axis from the x axis, degrees, counter-clockwise"""
 
     def geometry(self, tolerance: float) -> shapely.Polygon:  # noqa: D102
         cos, sin = math.cos(math.radians(self.angle)), math.sin(math.radians(self.angle))
@@ -208,9 +218,13 @@ class Arc(Shape):
 
     shape: Literal["arc"] = "arc"
     centre: Point
+    """centre, m"""
     radius: Length
+    """radius, m"""
     start: float
+    """angle at which it starts, degrees, counter-clockwise from the x axis"""
     stop: float
+    """angle at which it ends, degrees"""
 
     def geometry(self, tolerance: float) -> shapely.LineString:  # noqa: D102
         if not 0.0 < abs(self.stop - self.start) < 360.0:
@@ -243,10 +257,15 @@ class Curve(Shape):
 
     shape: Literal["curve"] = "curve"
     x: str
+    """expression of t for x, m, such as `0.5 * t`"""
     y: str
+    """expression of t for y, m"""
     start: float = 0.0
+    """value of t at which it starts"""
     stop: float = 1.0
+    """value of t at which it ends"""
     closed: bool = False
+    """whether it is the area within the curve"""
 
     def geometry(self, tolerance: float) -> shapely.Polygon | shapely.LineString:  # noqa: D102
         points = sampled(self._at, self.start, self.stop, tolerance)
@@ -271,8 +290,11 @@ class PointsFile(Shape):
 
     shape: Literal["points"] = "points"
     file: str
+    """CSV file of x, y in m, looked for beside the case file"""
     closed: bool = False
+    """whether it is the area within the points"""
     points: tuple[Point, ...] = ()
+    """what the file contains, filled in when it is read"""
 
     @model_validator(mode="before")
     @classmethod
@@ -297,6 +319,7 @@ class Union(Shape):
 
     shape: Literal["union"] = "union"
     of: tuple["AnyShape", ...] = Field(min_length=2)
+    """two closed shapes or more"""
 
     @property
     def dimension(self) -> int:  # noqa: D102
@@ -323,7 +346,9 @@ class Difference(Shape):
 
     shape: Literal["difference"] = "difference"
     of: "AnyShape"
+    """a closed shape"""
     minus: tuple["AnyShape", ...] = Field(min_length=1)
+    """closed shapes that are taken away from it"""
 
     @property
     def dimension(self) -> int:  # noqa: D102
@@ -350,7 +375,9 @@ class Sphere(Solid):
 
     shape: Literal["sphere"] = "sphere"
     centre: Point3
+    """centre, m"""
     radius: Length
+    """radius, m"""
 
     def geometry(self, tolerance: float) -> Any:  # noqa: D102
         from trimesh.creation import icosphere
@@ -380,8 +407,11 @@ class Cylinder(Solid):
 
     shape: Literal["cylinder"] = "cylinder"
     start: Point3
+    """one end of its axis, m"""
     stop: Point3
+    """the other end of its axis, m"""
     radius: Length
+    """radius, m"""
 
     def geometry(self, tolerance: float) -> Any:  # noqa: D102
         if self.start == self.stop:
@@ -406,8 +436,11 @@ class Mesh(Solid):
 
     shape: Literal["mesh"] = "mesh"
     file: str
+    """STL, OBJ or PLY file, looked for beside the case file"""
     scale: Length = 1.0
+    """factor from the unit of the file to m, such as 0.001 for mm"""
     offset: Point3 = (0.0, 0.0, 0.0)
+    """displacement after scaling, m"""
     sha256: str = ""
     """hash of the file, stored with the case so that a repeated run notices a file that has changed"""
 

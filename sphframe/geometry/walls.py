@@ -39,6 +39,7 @@ class Drawn(BaseModel):
     """
 
     name: str = "wall"
+    """name of the wall in outputs, messages and for `wall_parts`"""
     body: str | None = None
     """name of the body that carries the wall; None means a wall at rest"""
     one_sided: bool = False
@@ -128,6 +129,7 @@ class CylinderWall(Cylinder, ShapeWall):
     """A circular cylinder around the fluid, whose ends may be open, or within it."""
 
     open_ends: tuple[Literal["start", "stop"], ...] = ()
+    """ends that are no wall"""
 
     def solid(self, tolerance: float, far: float) -> WallSolid:  # noqa: D102
         circle = self.radius * unit_circle(tolerance / self.radius)
@@ -143,7 +145,9 @@ class PolygonWall(Shape, ShapeWall):
 
     shape: Literal["polygon"] = "polygon"
     points: tuple[Point, ...] = Field(min_length=2)
+    """points of the line, m, in either direction"""
     closed: bool = False
+    """whether the last point is joined to the first"""
 
     def geometry(self, tolerance: float) -> shapely.Polygon | LineString:  # noqa: D102
         return area_within(self.points) if self.closed else line_through(self.points)
@@ -160,9 +164,13 @@ class BoxWall(Drawn):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     shape: Literal["box"] = "box"
+    """kind of the shape, by which a table chooses it"""
     lower: tuple[float, ...] = Field(min_length=2, max_length=3)
+    """corner with the smallest coordinates, m"""
     upper: tuple[float, ...] = Field(min_length=2, max_length=3)
+    """corner with the largest coordinates, m"""
     open_faces: tuple[Literal["-x", "+x", "-y", "+y", "-z", "+z"], ...] = ()
+    """faces that are no wall, such as ["+y"] for an open top"""
 
     @model_validator(mode="after")
     def _box(self) -> "BoxWall":

@@ -49,6 +49,11 @@ class Akinci(WallTreatment):
     half its weight; still water moves away from the wall. A row leaves a force of 0.1 to 0.3 times 2 p/(rho dx).
 
     Source: N. Akinci, M. Ihmsen, G. Akinci, B. Solenthaler, M. Teschner (2012), doi:10.1145/2185520.2185558.
+
+    Attributes
+    ----------
+    row
+        one row of wall particles on the wall, in 2-D, instead of layers that fill the support.
     """
 
     row: bool = False

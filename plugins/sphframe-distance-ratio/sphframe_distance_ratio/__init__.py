@@ -50,6 +50,13 @@ class DistanceRatio(WallTreatment):
 
     Source: H. Takeda, S. M. Miyama, M. Sekiya (1994), doi:10.1143/ptp/92.5.939; J. P. Morris, P. J. Fox, Y. Zhu (1997),
     doi:10.1006/jcph.1997.5776.
+
+    Attributes
+    ----------
+    cap
+        largest ratio d_G / d_i; by default there is no limit but that of d_i.
+    continuity
+        velocity in the continuity: "assigned", that of fixed ghosts, or "ratio", as in the viscosity.
     """
 
     cap: float | None = None

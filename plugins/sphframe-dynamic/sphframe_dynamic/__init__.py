@@ -48,6 +48,11 @@ class Dynamic(WallTreatment):
     leakage (DualSPHysics, issue 221).
 
     Source: A. J. C. Crespo, M. Gomez-Gesteira, R. A. Dalrymple (2007), doi:10.3970/cmc.2007.005.173.
+
+    Attributes
+    ----------
+    diffusion
+        delta, coefficient of the density diffusion between wall and fluid.
     """
 
     diffusion: float = 0.0

@@ -15,7 +15,11 @@ class RotatingFrame(BodyForce):
     """The centrifugal force of a frame that turns about the last axis, through the origin: f = W^2 (x, 0) or (x, y, 0).
 
     It is the only one on fluid that turns with the frame; the Coriolis force on any other motion is left out.
-    ``angular_speed``: W, rad/s.
+
+    Attributes
+    ----------
+    angular_speed
+        W, rad/s.
     """
 
     angular_speed: float
@@ -41,7 +45,12 @@ class RotatingFrame(BodyForce):
 class Surge(BodyForce):
     """The force in a tank that is displaced by X = A (1 - cos W t) along x: f = -X''.
 
-    ``amplitude``: A, m; ``angular_frequency``: W, rad/s.
+    Attributes
+    ----------
+    amplitude
+        A, m.
+    angular_frequency
+        W, rad/s.
     """
 
     amplitude: float
@@ -68,8 +77,14 @@ class Roll(BodyForce):
 
         f = R(-T) g - g + w^2 (x, y) + T'' (y, -x)
 
-    Without the Coriolis force, which is smaller than these by the roll angle. ``amplitude``: B, rad;
-    ``angular_frequency``: W, rad/s.
+    Without the Coriolis force, which is smaller than these by the roll angle.
+
+    Attributes
+    ----------
+    amplitude
+        B, rad.
+    angular_frequency
+        W, rad/s.
     """
 
     amplitude: float

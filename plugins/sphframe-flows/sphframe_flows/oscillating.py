@@ -14,7 +14,14 @@ from sphframe import Array, Motion, RigidBody
 class Oscillating(RigidBody):
     """A body that oscillates along x, X = r(t) a sin(omega t), with the ramp r = s^3 (10 - 15 s + 6 s^2) of one period.
 
-    ``amplitude``: a, m; ``angular_frequency``: omega, rad/s; s is the time over the period, at most 1.
+    In the ramp s is the time over the period, at most 1.
+
+    Attributes
+    ----------
+    amplitude
+        a, m.
+    angular_frequency
+        omega, rad/s.
     """
 
     amplitude: float

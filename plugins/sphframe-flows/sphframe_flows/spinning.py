@@ -14,6 +14,15 @@ class Spinning(RigidBody):
     """A body in the plane that turns about its ``centre``, m, with ``angular_speed``, rad/s, after a ``ramp_time``, s.
 
     During the ramp the speed grows as s^2 (3 - 2 s), s = t / ramp_time.
+
+    Attributes
+    ----------
+    angular_speed
+        rad/s, positive counter-clockwise.
+    ramp_time
+        time in which the speed grows from zero, s.
+    centre
+        point about which the body turns, m.
     """
 
     angular_speed: float

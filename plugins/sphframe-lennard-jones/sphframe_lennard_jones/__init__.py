@@ -30,6 +30,13 @@ class LennardJones(WallTreatment):
     Kajtar (2009), doi:10.1016/j.cpc.2009.05.008).
 
     Source: J. J. Monaghan (1994), doi:10.1006/jcph.1994.1034; D between g H and 10 g H.
+
+    Attributes
+    ----------
+    strength
+        D, m^2/s^2; by default 5 g H.
+    steep
+        exponents 12 and 6 instead of 4 and 2.
     """
 
     strength: float | None = None

@@ -45,6 +45,11 @@ class MDBC(BoundaryInterpolator):
     determinant of A is below a fixed number.
 
     Source: English et al. (2022), doi:10.1007/s40571-021-00403-3; Liu & Liu (2006), doi:10.1016/j.apnum.2005.02.012.
+
+    Attributes
+    ----------
+    amplification
+        largest sum of absolute weights; above it the kernel average is used.
     """
 
     amplification: float = 10.0

@@ -67,6 +67,11 @@ class MDBC2022(WallTreatment):
     Known failures: the gradient amplifies noise at impact; u_G = u_w gives no second-order shear.
 
     Source: English et al. (2022), doi:10.1007/s40571-021-00403-3.
+
+    Attributes
+    ----------
+    amplification
+        largest sum of absolute weights; above it the kernel average is used.
     """
 
     amplification: float = 10.0
@@ -117,6 +122,11 @@ class MDBC2025(WallTreatment):
     much and is first order in the spacing.
 
     Source: English et al. (2025), doi:10.1016/j.compfluid.2025.106870, as read from the code.
+
+    Attributes
+    ----------
+    velocity
+        weights of u_m: the kernel average, or those of p_m.
     """
 
     velocity: Literal["published", "corrected"] = "published"

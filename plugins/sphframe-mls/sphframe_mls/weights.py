@@ -46,6 +46,11 @@ class LinearMLS(BoundaryInterpolator):
 
     Source: Lancaster & Salkauskas (1981), doi:10.1090/S0025-5718-1981-0616367-1; Marrone et al. (2011),
     doi:10.1016/j.cma.2010.12.016; Huang et al., Water 11 (2019).
+
+    Attributes
+    ----------
+    amplification
+        largest sum of absolute weights; above it the kernel average is used.
     """
 
     amplification: float = 3.0
@@ -69,6 +74,11 @@ class QuadraticMLS(BoundaryInterpolator):
     TOO_FEW for fewer than 6 (10) neighbours, and SINGULAR where they lie on one conic (quadric), or so near to one that
     the terms of first and second degree reproduce the constant but for a hundredth of its square: round-off in the
     weights is then magnified a hundred times, although they may be small. The fallback is the kernel average.
+
+    Attributes
+    ----------
+    amplification
+        largest sum of absolute weights; above it the kernel average is used.
     """
 
     amplification: float = 3.0

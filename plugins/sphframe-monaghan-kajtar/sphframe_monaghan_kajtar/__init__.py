@@ -35,6 +35,15 @@ class MonaghanKajtar(WallTreatment):
 
     Source: J. J. Monaghan, J. B. Kajtar (2009), doi:10.1016/j.cpc.2009.05.008; ``shifted`` as in A. Valizadeh, J. J.
     Monaghan (2015), doi:10.1016/j.jcp.2015.07.033.
+
+    Attributes
+    ----------
+    strength
+        K, m^2/s^2; by default g H.
+    beta
+        particle spacing over the distance of the wall particles.
+    shifted
+        whether the force is singular one distance of wall particles before the wall.
     """
 
     strength: float | None = None

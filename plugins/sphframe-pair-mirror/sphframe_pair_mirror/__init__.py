@@ -46,6 +46,11 @@ class PairMirror(WallTreatment):
 
     Source: the conservative boundary of AQUAgpusph, https://gitlab.com/sanguinariojoe/aquagpusph; J. L. Cercos-Pita
     (2015), doi:10.1016/j.cpc.2015.01.026.
+
+    Attributes
+    ----------
+    lift
+        whether p_G has the lift b.(x_G - x_i).
     """
 
     lift: bool = True

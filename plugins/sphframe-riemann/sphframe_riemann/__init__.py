@@ -46,6 +46,11 @@ class Riemann(WallTreatment):
     with no slip it is of first order.
 
     Source: C. Zhang, X. Y. Hu, N. A. Adams (2017), doi:10.1016/j.jcp.2017.01.027.
+
+    Attributes
+    ----------
+    limiter
+        eta, the limit of the dissipation; 0 leaves the dissipation out.
     """
 
     limiter: float = 3.0

@@ -55,6 +55,13 @@ class SFDI(BoundaryInterpolator):
     or sum |Phi_j| exceeds ``amplification``. The fallback is the kernel average.
 
     Source: Ma (2008), doi:10.3970/cmes.2008.023.075; Huang et al., Water 11 (2019).
+
+    Attributes
+    ----------
+    form
+        the full matrix N, or its diagonal alone as printed in the paper.
+    amplification
+        largest sum of absolute weights; above it the kernel average is used. By default 3, printed 10.
     """
 
     form: Literal["coupled", "printed"] = "coupled"

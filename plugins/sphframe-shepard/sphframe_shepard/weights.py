@@ -23,6 +23,11 @@ class Shepard(BoundaryInterpolator):
     coincide with particles, and the printed formula divides zero by zero.
 
     Source: Shepard (1968), doi:10.1145/800186.810616; Huang et al., Water 11 (2019).
+
+    Attributes
+    ----------
+    mu
+        exponent of the distance.
     """
 
     mu: float = 2.0
@@ -70,6 +75,13 @@ class ImprovedShepard(BoundaryInterpolator):
     there must have weight 1. At r_j = 0 the value is that of :class:`Shepard`.
 
     Source: Huang et al., Water 11 (2019).
+
+    Attributes
+    ----------
+    mu
+        exponent of phi.
+    attenuation
+        exponent lambda of s in the attenuation.
     """
 
     mu: float = 4.0
