@@ -37,6 +37,8 @@ class DisplacementSeries(RigidBody):
     before comments. The displacement is measured from the first line, where the body is drawn. The body is at rest
     before the first and after the last line.
 
+    Source: F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984), doi:10.1137/0905021.
+
     Attributes
     ----------
     path
@@ -65,8 +67,6 @@ class DisplacementSeries(RigidBody):
     ------
     InputError
         when the file cannot be read, is not such a table, or its times do not increase.
-
-    Source: F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984), doi:10.1137/0905021.
     """
 
     path: Path | None = None

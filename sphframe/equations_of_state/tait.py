@@ -15,6 +15,8 @@ class Tait(EquationOfState):
     Its inverse is rho = rho0 (1 + p/B)^(1/gamma), which exists for p > -B (about -57 rho0 g H at c0 = 20 sqrt(gH));
     its sound speed is c = c0 (rho/rho0)^((gamma - 1)/2).
 
+    Source: Batchelor (1974), An Introduction to Fluid Dynamics; Monaghan (1994), doi:10.1006/jcph.1994.1034.
+
     Parameters
     ----------
     gamma
@@ -24,8 +26,6 @@ class Tait(EquationOfState):
     ------
     InputError
         when gamma is below 1.
-
-    Source: Batchelor (1974), An Introduction to Fluid Dynamics; Monaghan (1994), doi:10.1006/jcph.1994.1034.
 
     Examples
     --------

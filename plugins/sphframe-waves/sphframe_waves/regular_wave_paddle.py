@@ -21,6 +21,9 @@ class RegularWavePaddle(RigidBody):
 
     The ramp r(t) = s^3 (10 - 15 s + 6 s^2), s = t / (ramp_periods T), grows from 0 to 1 with continuous acceleration.
 
+    Source: F. Biesel, F. Suquet, Les appareils generateurs de houle en laboratoire, La Houille Blanche (1951),
+    doi:10.1051/lhb/1951033.
+
     Attributes
     ----------
     wave_height
@@ -33,9 +36,6 @@ class RegularWavePaddle(RigidBody):
         m/s^2.
     ramp_periods
         periods over which the motion grows.
-
-    Source: F. Biesel, F. Suquet, Les appareils generateurs de houle en laboratoire, La Houille Blanche (1951),
-    doi:10.1051/lhb/1951033.
 
     Examples
     --------
