@@ -11,6 +11,7 @@ from sphframe.compiled import LANES, specialise
 from sphframe.neighbours.sight import WHOLE
 from sphframe.particles import Columns
 from sphframe.physics import wall_reaction
+from sphframe.physics.density_gradient import renormalised_2d, renormalised_3d
 
 from .cloud import make_cloud
 
@@ -154,3 +155,21 @@ def test_wall_reaction_is_opposite_to_what_ghosts_do_to_the_fluid(dim, hidden):
         partial, loads,
     )  # fmt: skip
     np.testing.assert_allclose(loads[:, :dim].sum(axis=0), expected, rtol=1e-10)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("unit", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize(("condition", "solved"), [(0.021, True), (0.019, False), (-0.1, False)])
+def test_matrices_are_inverted_from_a_fiftieth_of_a_full_one_on_in_any_unit(dim, unit, condition, solved):
+    turn = np.linalg.qr(np.random.default_rng(dim).normal(size=(dim, dim)))[0]
+    # eigenvalues 1 - e, 1 + e (and 1) have the mean 1 and the determinant 1 - e^2
+    eigenvalues = np.append(1.0 + np.sqrt(1.0 - condition) * np.array([-1.0, 1.0]), np.ones(dim - 2))
+    matrix = unit * turn @ np.diag(eigenvalues) @ turn.T
+    right = unit * np.arange(1.0, dim + 1.0)
+    upper = (
+        matrix[np.triu_indices(dim)]
+        if dim == 2
+        else [matrix[k] for k in ((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))]
+    )
+    found = (renormalised_2d if dim == 2 else renormalised_3d).py_func(*right, *upper)
+    np.testing.assert_allclose(found, np.linalg.solve(matrix, right) if solved else right, rtol=1e-9)

@@ -84,9 +84,7 @@ class Plain:
     def move_walls(self, time: float) -> None:
         """Carry the ghosts; set b = rho0 (f - a_wall) at their feet."""
         d = self.drawn
-        self.ghost, self.mirror, self.foot, self.normal = (
-            a.copy() for a in (d.position, d.mirror, d.foot, d.normal)
-        )
+        self.ghost, self.mirror, self.foot, self.normal = (a.copy() for a in (d.position, d.mirror, d.foot, d.normal))
         no_slip = self.case.slip == "no"
         self.reflection = np.tile(-np.eye(self.dim), (len(d.wall), 1, 1)) if no_slip else d.reflection.copy()
         self.dual, self.other_normal = d.other_dual.copy(), d.other_normal.copy()
@@ -155,7 +153,9 @@ class Plain:
     def kernel(self, r: Array) -> Array:
         """W."""
         q2 = (r / self.h) ** 2
-        return np.where(r < self.support, NORMALISATION[self.dim] / self.h**self.dim * (np.exp(-q2) - np.exp(-9.0)), 0.0)
+        return np.where(
+            r < self.support, NORMALISATION[self.dim] / self.h**self.dim * (np.exp(-q2) - np.exp(-9.0)), 0.0
+        )
 
     def grad(self, x_ji: Array) -> Array:
         """grad_i W_ij."""

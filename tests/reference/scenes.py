@@ -18,18 +18,23 @@ WEIGHTS = {"improved-shepard": improved_shepard, "shepard": shepard, "normalized
 
 
 class Swirl(BodyForce):
-    """A force that depends on place and time."""
+    """A force that depends on place and, at a ``rate`` (1/s), on time."""
 
-    def __init__(self, origin: Array, gradient: Array) -> None:
-        self.origin, self.slope = origin, gradient
+    def __init__(self, origin: Array, gradient: Array, rate: float = 3.0) -> None:
+        self.origin, self.slope, self.rate = origin, gradient, rate
 
     def acceleration(self, time: float) -> Array:
         """At the origin."""
-        return self.origin * (1.0 + 3.0 * time)
+        return self.origin * (1.0 + self.rate * time)
 
     def gradient(self, time: float) -> Array:
         """A matrix."""
-        return self.slope * (1.0 - time)
+        return self.slope * (1.0 + self.rate * time)
+
+
+def drive(run: Simulation, force: Swirl) -> None:
+    """Let the force act in a simulation; no case of the core has one that depends on place."""
+    run.system._driving._added = force
 
 
 def motion(random: np.random.Generator, dim: int) -> Callable[[float], Motion]:
@@ -56,8 +61,9 @@ def walls_of(kind: str, dim: int, size: Array) -> list[Any]:
     body = None if kind == "at rest" else "tank"
     return [
         PolygonWall(name="side", points=[(-0.2, height), (0.0, 0.0)], body=body),
-        PolygonWall(name="rest", points=[(0.0, 0.0), (length, 0.0), (length, height)], body=body),
-    ]
+        PolygonWall(name="rest", points=[(0.0, 0.0), (length, 0.0), (length, height)], body=body,
+                    surface_velocity=None if body else (0.7, -0.4)),
+    ]  # fmt: skip
 
 
 def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tuple[Simulation, Plain]:
@@ -78,7 +84,7 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
     run = Simulation(case, threads=1)
     system, n, columns = run.system, run.fluid_count, run.columns
     force = Swirl(5.0 * random.normal(size=dim), 5.0 * random.normal(size=(dim, dim)))
-    system._driving._added = force  # noqa: SLF001  # no component of the core depends on place
+    drive(run, force)
     gravity = case.gravity_vector
     rows = system.rows[:n]
     if moves:
@@ -88,11 +94,9 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
     rows[:, columns.velocity] += 0.5 * random.normal(size=(n, dim))
     rows[:, columns.mass] *= random.uniform(0.9, 1.1, n)
     rows[:, columns.density] *= 1.0 + 2e-3 * random.normal(size=n)
-    if walls == "at rest":
-        run.boundary.velocity[run.boundary.wall == 1] = (0.7, -0.4)
     order = np.argsort(system.ids)
     plain = Plain(
-        case, 20.0, run.boundary._drawn, run.boundary.wall_body, centre[None], [drift] if moves else [],  # noqa: SLF001
+        case, 20.0, run.boundary._drawn, run.boundary.wall_body, centre[None], [drift] if moves else [],
         lambda time: (gravity + force.acceleration(time), force.gradient(time)),
         WEIGHTS[case.interpolator.name], run.boundary.velocity * (not moves),
         rows[order, columns.position], rows[order, columns.velocity], rows[order, columns.density],

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from sphframe import Simulation
 
@@ -57,6 +56,8 @@ def compare(seed: int, dim: int, walls: str = "box", steps: int = 2, **options: 
     for _ in range(steps):
         run.advance()
         integrate(1e-3)
+        run.system.keep(np.random.default_rng(seed).permutation(run.fluid_count))  # each keeps all that is its own
+        run.system.find_neighbours()
     assert_same(run, plain, seed)
 
 
@@ -79,3 +80,24 @@ def test_the_mirror_lift_and_laminar_viscosity_in_the_plane(seed: int, walls: st
         seed, 2, walls, slip=slip, hydrostatic_lift="mirror", interpolator="normalized", kinematic_viscosity=0.02,
         tension="free",
     )  # fmt: skip
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("dim", "options"),
+    [
+        (2, {}),
+        (2, {"hydrostatic_lift": "mirror", "interpolator": "normalized", "kinematic_viscosity": 0.02,
+             "tension": "free"}),
+        (2, {"ghost_velocity": "interpolated", "interpolator": "shepard", "kinematic_viscosity": 0.02,
+             "viscosity_model": "monaghan-gingold", "lowest_pressure": -300.0}),
+        (3, {}),
+        (3, {"hydrostatic_lift": "mirror", "interpolator": "normalized", "kinematic_viscosity": 0.02}),
+    ],
+    ids=["default", "mirror", "interpolated", "space", "mirror-in-space"],
+)  # fmt: skip
+def test_two_hundred_scenes(dim: int, options: dict[str, Any]) -> None:
+    for seed in range(1000, 1040):
+        walls = "box" if dim == 3 else ("box", "moving", "at rest")[seed % 3]
+        integrator = ("symplectic", "rk4")[seed // 3 % 2]
+        compare(seed, dim, walls, slip=("free", "no")[seed // 6 % 2], integrator=integrator, **options)
