@@ -166,10 +166,6 @@ def test_matrices_are_inverted_from_a_fiftieth_of_a_full_one_on_in_any_unit(dim,
     eigenvalues = np.append(1.0 + np.sqrt(1.0 - condition) * np.array([-1.0, 1.0]), np.ones(dim - 2))
     matrix = unit * turn @ np.diag(eigenvalues) @ turn.T
     right = unit * np.arange(1.0, dim + 1.0)
-    upper = (
-        matrix[np.triu_indices(dim)]
-        if dim == 2
-        else [matrix[k] for k in ((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))]
-    )
+    upper = [matrix[j, k] for k in range(dim) for j in range(k + 1)]
     found = (renormalised_2d if dim == 2 else renormalised_3d).py_func(*right, *upper)
     np.testing.assert_allclose(found, np.linalg.solve(matrix, right) if solved else right, rtol=1e-9)

@@ -1,4 +1,4 @@
-"""A flow that is moved, turned, reflected, scaled or renumbered is the same flow; so is one whose wall is cut in two."""
+"""A flow that is moved, turned, reflected, scaled or renumbered is the same flow, also if its wall is cut in two."""
 
 from dataclasses import dataclass
 from itertools import permutations
