@@ -1,3 +1,4 @@
+from sphframe.analysis.progress import ProgressDisplay as ProgressDisplay
 from sphframe.arrays import Array as Array
 from sphframe.boundary.fixed_ghosts import FixedGhosts as FixedGhosts
 from sphframe.boundary.operator import ParticleCloud as ParticleCloud

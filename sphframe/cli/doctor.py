@@ -4,6 +4,7 @@ import importlib.metadata
 import os
 import platform
 import sys
+import tempfile
 import warnings
 from pathlib import Path
 from typing import Any
@@ -33,10 +34,13 @@ def doctor_command() -> None:
         table.add_row(package, _version(package))
     table.add_row("threads", f"{default_threads()} of {os.cpu_count()} cores; choose others by --threads")
     table.add_row("threading layer", _threading_layer())
-    table.add_row("compiled code", _cache())
+    cache, problem = _cache()
+    table.add_row("compiled code", cache)
     console.print(table)
+    if problem:
+        console.print(Text.assemble(("broken: ", "bold red"), problem))
 
-    broken, usable = 0, set()
+    broken, usable = int(bool(problem)), set()
     for kind in KINDS:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -83,10 +87,34 @@ def _threading_layer() -> str:
         return f"broken: {type(error).__name__}: {error}"
 
 
-def _cache() -> str:
-    """Folder and size of the cache of compiled loops."""
-    folder = Path(numba.config.CACHE_DIR or Path(sphframe.__file__).parent)
+def _cache() -> tuple[str, str]:
+    """Folder and size of the cache of compiled loops, and what is wrong with it."""
+    used = Path(numba.njit(cache=True)(_cache_probe)._cache.cache_path)
+    folder = Path(sphframe.__file__).parent
+    if not used.is_relative_to(folder):
+        folder = used.parent
     files = [file for pattern in ("*.nbi", "*.nbc") for file in folder.rglob(pattern)]
     megabytes = sum(file.stat().st_size for file in files) / 1e6
-    writable = "" if os.access(folder, os.W_OK) else ", read-only: Numba uses a folder of the user instead"
-    return f"{len(files)} files, {megabytes:.1f} MB below {folder}{writable}; set NUMBA_CACHE_DIR"
+    return f"{len(files)} files, {megabytes:.1f} MB below {folder}; set NUMBA_CACHE_DIR for another", _fault(
+        used, files
+    )
+
+
+def _fault(folder: Path, files: list[Path]) -> str:
+    """Return why compiled loops are not kept in ``folder``, or which of ``files`` are damaged; or nothing."""
+    remedy = "set NUMBA_CACHE_DIR to a folder that can be written to"
+    if "sphframe-cache-" in str(folder):
+        return f"no folder for compiled loops can be written to, so that each process compiles all of them: {remedy}"
+    try:
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(bytes(1_000_000))
+    except OSError as error:
+        return f"compiled loops cannot be kept in {folder} ({error.strerror}): make room there, or {remedy}"
+    damaged = [file for file in files if not os.access(file, os.R_OK) or not file.stat().st_size]
+    if damaged:
+        return f"{len(damaged)} files of compiled loops are empty or cannot be read, such as {damaged[0]}: remove them"
+    return ""
+
+
+def _cache_probe() -> None:
+    """Stand for the loops: Numba chooses the folder of a function by its file."""

@@ -7,10 +7,10 @@ import warnings
 from typing import Any, final
 
 import typer
-from rich.console import Console
 from rich.text import Text
 from typer.core import TyperGroup
 
+from sphframe.console import log_console
 from sphframe.errors import SphframeError
 
 
@@ -66,13 +66,11 @@ def _report(error: BaseException) -> int:
 
 def _print_error(message: str) -> None:
     first, *rest = message.splitlines() or [""]
-    console = Console(stderr=True, markup=False, highlight=False, soft_wrap=True)
+    console = log_console()
     console.print(Text.assemble(("error: ", "bold red"), first))
     for line in rest:
         console.print(Text(line))
 
 
 def _print_warning(message: Warning | str, category: type[Warning], *_: Any) -> None:
-    Console(stderr=True, markup=False, highlight=False, soft_wrap=True).print(
-        Text.assemble(("warning: ", "bold yellow"), " ".join(str(message).split()))
-    )
+    log_console().print(Text.assemble(("warning: ", "bold yellow"), " ".join(str(message).split())))

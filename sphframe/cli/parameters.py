@@ -40,7 +40,7 @@ OutputFile = Annotated[
 ]
 Preset = Annotated[str | None, typer.Option(metavar="NAME", help="one of the case's presets, such as paper")]
 Scheduler = Annotated[
-    str | None, typer.Option(metavar="ADDRESS", help="run on an existing dask cluster, such as tcp://127.0.0.1:8786")
+    str | None, typer.Option(metavar="ADDRESS", help="run on an existing dask cluster, such as tls://127.0.0.1:8786")
 ]
 Threads = Annotated[int | None, typer.Option(parser=_whole_number, metavar="N", help="threads; by default all cores")]
 Workers = Annotated[

@@ -10,10 +10,10 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from sphframe.analysis import summary
+from sphframe.analysis import ProgressDisplay, summary
 from sphframe.cases import Case, CaseWarning, load_case
-from sphframe.cli.progress import ProgressDisplay
 from sphframe.cli.values import allow_imports_from_here
+from sphframe.console import log_console, result_console
 from sphframe.errors import InputError, OutputError, ResumeWarning
 from sphframe.hooks import hook_manager
 from sphframe.output import CheckpointWriter, NetCDFWriter, open_dataset
@@ -71,7 +71,7 @@ def console_log() -> Console:
     """Return the console on which a command reports its progress; show repeated warnings too."""
     warnings.simplefilter("always", CaseWarning)
     warnings.simplefilter("always", ResumeWarning)
-    return Console(stderr=True, markup=False, highlight=False, soft_wrap=True)
+    return log_console()
 
 
 def picture_of(path: Path) -> Path:
@@ -95,17 +95,17 @@ def run_with_progress(
 
 def report_run(case: Case, path: Path) -> None:
     """Print the key figures of the run in ``path`` and draw its picture."""
-    screen = Console(markup=False, highlight=False, soft_wrap=True)
+    picture = "no picture: matplotlib is missing (python -m pip install 'sphframe[plot]')"
     with open_dataset(path) as dataset:
-        screen.print(_table(case, summary(dataset)))
-        screen.print(f"wrote {path}")
+        figures = summary(dataset)
         if find_spec("matplotlib"):
             from sphframe.analysis import plot_run
 
             plot_run(dataset, picture_of(path))
-            screen.print(f"wrote {picture_of(path)}")
-        else:
-            screen.print("no picture: matplotlib is missing (python -m pip install 'sphframe[plot]')")
+            picture = f"wrote {picture_of(path)}"
+    screen = result_console()
+    screen.print(_table(case, figures))
+    screen.print(f"wrote {path}\n{picture}")
 
 
 def _stem(source: str) -> str:

@@ -1,7 +1,7 @@
 """Compiled: the tools with which the loops of Numba are written."""
 
+from sphframe.compiled import cache  # noqa: F401  (before any loop is declared)
 from sphframe.compiled.borrowed import borrowed
-from sphframe.compiled.cache import prefer_writable_cache
 from sphframe.compiled.distance import nearest, offset_between, squared_distance
 from sphframe.compiled.fast_exp import fast_exp
 from sphframe.compiled.fma import fma
@@ -27,4 +27,3 @@ __all__ = [
 ]
 
 prefer_fair_threads()
-prefer_writable_cache()

@@ -14,8 +14,9 @@ from sphframe.output.writer import NetCDFWriter
 class CheckpointWriter:
     """A hook plugin that writes checkpoints beside the output of ``writer``.
 
-    A checkpoint is also written when the run is interrupted, and it is removed when the run is complete. No checkpoint
-    is written when the guards stop the run: the last one before remains.
+    A checkpoint is also written when the run is interrupted, or any other error ends it between two steps, and it is
+    removed when the run is complete. No checkpoint is written when the guards stop the run in a step: the last one
+    before remains.
 
     Parameters
     ----------
@@ -64,9 +65,12 @@ class CheckpointWriter:
 
     @hookimpl
     def sphframe_run_failed(self, simulation: ResumableRun, error: BaseException) -> None:
-        """Write a checkpoint when the run was interrupted."""
-        if isinstance(error, KeyboardInterrupt) and simulation.between_steps and self._writer.run_id:
-            self.write(simulation)
+        """Write a checkpoint if the state is sound and the output holds all that the checkpoint would count."""
+        if simulation.between_steps and self._writer.holds(simulation.samples, simulation.frames):
+            try:
+                self.write(simulation)
+            except OutputError as failure:
+                error.add_note(str(failure))
 
     def write(self, simulation: ResumableRun) -> None:
         """Write a checkpoint of the present state.

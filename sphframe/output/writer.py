@@ -115,6 +115,10 @@ class NetCDFWriter:
             self._write_samples()
             self._file.sync_to_disk()
 
+    def holds(self, samples: int, frames: int) -> bool:
+        """Return whether the file has been begun and contains so many samples and frames."""
+        return bool(self.run_id) and self._file.samples >= samples and self._file.frames >= frames
+
     def _write_samples(self) -> None:
         if self._samples:
             names = self._samples[0]

@@ -57,6 +57,7 @@ def run(
     threads: int | None = None,
     overwrite: bool = False,
     hooks: Sequence[object] = (),
+    progress: bool | None = None,
     checkpoint_every: float | None = 60.0,
     checkpoint_interval: float | None = None,
     **parameters: Any,
@@ -77,6 +78,9 @@ def run(
         whether an existing ``output`` may be replaced.
     hooks
         listeners to the run's events, see :mod:`sphframe.hooks`.
+    progress
+        whether the progress is displayed on the standard error stream (:class:`sphframe.ProgressDisplay`); by default
+        on a terminal and in a notebook.
     checkpoint_every
         wall-clock time between checkpoints, s; None for none. See :func:`resume`.
     checkpoint_interval
@@ -102,7 +106,7 @@ def run(
     writer = NetCDFWriter(path, overwrite=overwrite)
     checkpoints = CheckpointWriter(writer, every=checkpoint_every, interval=checkpoint_interval)
     simulation = Simulation(ready, threads=threads)
-    _run(simulation, writer, checkpoints, hooks)
+    _run(simulation, writer, checkpoints, hooks, progress)
     return Run(ready, path, open_dataset(path))
 
 
@@ -113,10 +117,21 @@ def _temporary_file() -> Path:
     return Path(folder) / "run.nc"
 
 
-def _run(simulation: Simulation, writer: NetCDFWriter, checkpoints: CheckpointWriter, hooks: Sequence[object]) -> None:
+def _run(
+    simulation: Simulation,
+    writer: NetCDFWriter,
+    checkpoints: CheckpointWriter,
+    hooks: Sequence[object],
+    progress: bool | None,
+) -> None:
     """Run to the end; an error that ends the run before says in its traceback which files remain."""
+    from sphframe.analysis.progress import ProgressDisplay
+
+    display = ProgressDisplay()
+    shown = display.is_live if progress is None else progress
+    displays = [display] if shown and not any(isinstance(hook, ProgressDisplay) for hook in hooks) else []
     try:
-        simulation.run(hook_manager([writer, checkpoints, *hooks]))
+        simulation.run(hook_manager([writer, checkpoints, *displays, *hooks]))
     except BaseException as error:
         if writer.run_id and writer.path.exists():
             error.add_note(f"{writer.path} holds the run up to t = {simulation.time:.4g} s")
@@ -163,6 +178,7 @@ def resume(
     trusted: bool = False,
     threads: int | None = None,
     hooks: Sequence[object] = (),
+    progress: bool | None = None,
     checkpoint_every: float | None = 60.0,
     checkpoint_interval: float | None = None,
 ) -> Run:
@@ -199,5 +215,5 @@ def resume(
     """
     simulation, writer = prepare_resume(path, case=case, trusted=trusted, threads=threads)
     checkpoints = CheckpointWriter(writer, every=checkpoint_every, interval=checkpoint_interval)
-    _run(simulation, writer, checkpoints, hooks)
+    _run(simulation, writer, checkpoints, hooks, progress)
     return Run(simulation.case, writer.path, open_dataset(writer.path))

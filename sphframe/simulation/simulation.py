@@ -94,12 +94,12 @@ class Simulation(Observation):
         SimulationError
             when the guards find something wrong in the new state, or a component fails.
         """
+        self.between_steps = False
         with self._adding_time_and_step():
             self.time_step = self._next_time_step(self._motion.speed)
             ahead = (1.2 + 0.5 * self.case.shifting) * self.time_step
             if not self.system.neighbours_remain_valid(self._motion, ahead):
                 self.system.find_neighbours()
-            self.between_steps = False
             with naming_component(self.case, running=True):
                 self.components.integrator.step(self.system, self.time, self.time_step)
             self._shift(self._motion.speed, self.time_step)

@@ -12,7 +12,11 @@ import itertools
 import logging
 import os
 import queue
+import re
+import time
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import CancelledError
 from dataclasses import dataclass, field
 from importlib.util import find_spec
 from pathlib import Path
@@ -25,11 +29,15 @@ from sphframe.studies.tasks import UNFINISHED, Task, lock_of, work
 
 _TOPIC = "sphframe-progress"
 _CONNECT_TIMEOUT = "30s"
-_DASK_SETTINGS = {
+_WITHOUT_WORKERS = 30.0
+"""s after which a cluster without workers is reported"""
+_DASK_SETTINGS: dict[str, Any] = {
     "distributed.scheduler.worker-ttl": None,  # a worker that compiles does not answer for a while
     "distributed.comm.timeouts.connect": "600s",  # the machine may be busy
     "distributed.comm.timeouts.tcp": "600s",
     "distributed.admin.tick.limit": "1h",
+    "distributed.scheduler.http.routes": [],  # pages without a password, about the runs
+    "distributed.worker.http.routes": [],
     "distributed.worker.memory.target": False,
     "distributed.worker.memory.spill": False,
     "distributed.worker.memory.pause": False,
@@ -179,12 +187,28 @@ class _TaskRunner:
                     submitted.add(future)
                 if not submitted:
                     return
-                future = ended.get()
+                future = self._next(ended)
                 submitted.remove(future)
                 self._finish(future)
         except BaseException:
             self._client.cancel(list(submitted), force=True)
             raise
+
+    def _next(self, ended: "queue.SimpleQueue[Any]") -> Any:
+        """Wait for the next future that ends; say so if there is no worker that could end one."""
+        looked = time.monotonic()
+        while True:
+            with contextlib.suppress(queue.Empty):
+                return ended.get(timeout=1.0)
+            if time.monotonic() - looked > _WITHOUT_WORKERS:
+                looked = time.monotonic()
+                if not self._client.scheduler_info(n_workers=-1)["workers"]:
+                    warnings.warn(
+                        f"the cluster {self._client.scheduler.address} has no worker: start one with dask worker"
+                        " ADDRESS; waiting, Ctrl-C ends this",
+                        RuntimeWarning,
+                        stacklevel=2,
+                    )
 
     def _worker_count(self) -> int:
         """Return the number of workers, at least one: the first task waits until the first worker has started."""
@@ -200,6 +224,11 @@ class _TaskRunner:
             raise SphframeError(
                 f"several workers died while they ran {self._missing[name].label}; if memory is short, give fewer"
                 " --workers; finished runs are kept"
+            ) from None
+        except CancelledError:
+            raise SphframeError(
+                f"the scheduler {self._client.scheduler.address} does not answer any more while"
+                f" {self._missing[name].label} is running; finished runs are kept: repeat the command to continue"
             ) from None
         if not (self._folder / name).exists():
             raise OutputError(
@@ -274,10 +303,14 @@ def _cluster(count: int, workers: int | None, scheduler: str | None) -> Iterator
 def _running_cluster(scheduler: str) -> Iterator[Any]:
     from distributed import Client
 
-    logging.getLogger("distributed").setLevel(logging.ERROR)
+    host = r"([a-z]+://)?([^\s/:\[\]]+|\[[0-9a-fA-F:.]+\]):(\d{1,5})/?"
+    inside = scheduler.startswith("inproc://")  # a scheduler in a thread of this process
+    if not inside and (not re.fullmatch(host, scheduler) or int(scheduler.rstrip("/").rpartition(":")[2]) > 65535):
+        raise InputError(f"--scheduler {scheduler}: give its protocol, machine and port, such as tls://127.0.0.1:8786")
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what is lost is reported by this command
     try:
         client = Client(scheduler, timeout=_CONNECT_TIMEOUT, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as error:
+    except (OSError, ValueError, TypeError, TimeoutError) as error:  # TypeError: no certificates for TLS
         raise InputError(
             f"--scheduler {scheduler}: no dask scheduler answers there ({error}); start one with"
             " dask scheduler, and workers with dask worker ADDRESS"
@@ -295,7 +328,9 @@ def _local_cluster(processes: int) -> Iterator[Any]:
         threads_per_worker=1,
         processes=True,
         host="127.0.0.1",
-        dashboard_address="127.0.0.1:0",
+        security=True,  # else anybody on this machine could connect and have code run by this user
+        dashboard_address=None,
+        scheduler_kwargs={"dashboard": False, "dashboard_address": "127.0.0.1:0"},  # else port 8787, or a warning
         memory_limit=0,
         silence_logs=logging.CRITICAL,
     )

@@ -116,6 +116,7 @@ class RunTask(Task):
             "threads": threads,
             "checkpoint_every": CHECKPOINT_EVERY,
             "hooks": [PartHook(on_part)],
+            "progress": False,
         }
         case = self.case()
         try:

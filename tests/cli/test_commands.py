@@ -1,11 +1,13 @@
 """The command line: what it prints, writes and returns."""
 
+import errno
 import io
 import os
 import re
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 from types import SimpleNamespace
@@ -17,9 +19,9 @@ from typer.testing import CliRunner, Result
 
 from sphframe import registry
 from sphframe.analysis import plot_run
+from sphframe.analysis.progress import ProgressDisplay
 from sphframe.cases import load_case
 from sphframe.cli.app import app
-from sphframe.cli.progress import ProgressDisplay
 from sphframe.cli.values import read_assignments
 from sphframe.errors import SimulationError
 from sphframe.output import open_dataset
@@ -265,7 +267,7 @@ class FakeSimulation:
 @pytest.mark.parametrize("terminal", [False, True])
 def test_progress_shows_the_present_rate_and_warnings(terminal: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     clock = iter([10.0, 12.0])  # the first step includes the compilation
-    monkeypatch.setattr("sphframe.cli.progress.time", SimpleNamespace(monotonic=lambda: next(clock)))
+    monkeypatch.setattr("sphframe.analysis.progress.time", SimpleNamespace(monotonic=lambda: next(clock)))
     console = Console(force_terminal=terminal, file=io.StringIO(), record=True, width=200)
     display, simulation = ProgressDisplay(console), FakeSimulation()
     display.sphframe_run_started(simulation)  # resumed: 500 steps were made before
@@ -291,6 +293,20 @@ def test_doctor_fails_where_nothing_can_run(monkeypatch: pytest.MonkeyPatch) -> 
     found = call("doctor")
     assert found.exit_code == 1
     assert "no interpolators: nothing can run; pip install sphframe-shepard" in found.stdout
+
+
+def test_doctor_finds_a_cache_that_cannot_be_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from sphframe.cli import doctor
+
+    def full(**_: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    assert doctor._fault(tmp_path, []) == ""
+    (tmp_path / "loop.nbi").touch()
+    assert "loop.nbi: remove them" in doctor._fault(tmp_path, [tmp_path / "loop.nbi"])
+    assert "cannot be kept" in doctor._fault(tmp_path / "nowhere", [])
+    monkeypatch.setattr(tempfile, "TemporaryFile", full)
+    assert "(No space left on device): make room there, or set NUMBA_CACHE_DIR" in doctor._fault(tmp_path, [])
 
 
 def test_errors_in_python_name_the_files_that_remain_and_nothing_else_stays(tmp_path: Path) -> None:

@@ -2,14 +2,20 @@
 
 import contextlib
 import os
+import socket
+import ssl
+import urllib.error
+import urllib.request
 from collections.abc import Callable
+from concurrent.futures import CancelledError
 from dataclasses import dataclass, replace
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
+import dask
 import pytest
 
-from sphframe.errors import InputError, OutputError
+from sphframe.errors import InputError, OutputError, SphframeError
 from sphframe.output.lock import lock_file
 from sphframe.studies import engine
 from sphframe.studies.engine import Progress, carry_out
@@ -86,11 +92,29 @@ def test_a_second_command_in_the_folder_is_refused(make: Callable[..., RunTask],
 
 def test_no_scheduler_and_no_workers_are_refused(make: Callable[..., RunTask], tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no dask scheduler answers there"):
-        carry_out([make("one")], tmp_path, scheduler="nonsense://x")
+        carry_out([make("one")], tmp_path, scheduler="nonsense://x:1")
+    for address in ("localhost", "tcp://", "127.0.0.1:port", "tls://127.0.0.1:99999", "two words:1"):
+        with pytest.raises(InputError, match="give its protocol, machine and port"):
+            carry_out([make("one")], tmp_path, scheduler=address)
     with pytest.raises(InputError, match="--workers 0"):
         carry_out([make("one")], tmp_path, workers=0)
     with pytest.raises(InputError, match="give one of them"):
         carry_out([make("one")], tmp_path, workers=1, scheduler="tcp://127.0.0.1:1")
+
+
+def test_nobody_else_on_the_machine_reaches_the_local_cluster() -> None:
+    with dask.config.set(engine._DASK_SETTINGS), engine._local_cluster(0) as client:
+        scheduler = client.cluster.scheduler
+        assert scheduler.address.startswith("tls://127.0.0.1:")
+        stranger = ssl.create_default_context()
+        stranger.check_hostname, stranger.verify_mode = False, ssl.CERT_NONE
+        plain = socket.create_connection(("127.0.0.1", scheduler.port))
+        with stranger.wrap_socket(plain) as connection, pytest.raises(ssl.SSLError, match="certificate"):
+            connection.recv(1)
+        port = scheduler.http_server.port
+        for page in ("info/main/workers.html", "status", "health", "metrics", "json/counts.json"):
+            with pytest.raises(urllib.error.HTTPError, match="404"):
+                urllib.request.urlopen(f"http://127.0.0.1:{port}/{page}")
 
 
 class _TwoWorkers:
@@ -129,6 +153,41 @@ class _Future:
             tell(self)
         if self.number == self.client.count and self.client.end_the_first:
             self.client.end_the_first()
+
+
+@dataclass(frozen=True)
+class _Lost(_Future):
+    def result(self) -> None:
+        raise CancelledError("scheduler-connection-lost")
+
+
+def test_a_lost_scheduler_and_lost_workers_are_reported(
+    make: Callable[..., RunTask], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Client(_TwoWorkers):
+        """One that loses its workers, and then, when somebody has looked for them, its scheduler."""
+
+        scheduler = SimpleNamespace(address="tls://there:1")
+        asked = 0
+
+        def scheduler_info(self, n_workers: int) -> dict[str, object]:
+            self.asked += 1
+            if self.asked == 2 and self.end_the_first:
+                self.end_the_first()
+            return {"workers": {"one": {}} if self.asked == 1 else {}}
+
+        def submit(self, *_: object, key: str, pure: bool) -> _Future:
+            return _Lost(self, key, 1)
+
+        def cancel(self, futures: object, force: bool) -> None: ...
+
+    monkeypatch.setattr(engine, "_cluster", lambda *_: contextlib.nullcontext((Client(2), 1)))
+    monkeypatch.setattr(engine, "_WITHOUT_WORKERS", 0.0)
+    with (
+        pytest.warns(RuntimeWarning, match="tls://there:1 has no worker"),
+        pytest.raises(SphframeError, match=r"tls://there:1 does not answer .*repeat the command"),
+    ):
+        carry_out([make("one")], tmp_path)
 
 
 def test_no_worker_is_idle_beside_a_long_task(

@@ -14,6 +14,8 @@ import pytest
 
 from sphframe.studies import reproduce
 
+Security = pytest.importorskip("distributed").Security
+dask_config = pytest.importorskip("dask").config
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="SIGKILL is POSIX")
 
 WAITS = """
@@ -74,16 +76,39 @@ def test_killed_twice_it_repeats_nothing_and_reports_the_same(tiny: ModuleType, 
 
 @pytest.mark.long
 def test_on_a_scheduler_and_two_workers_started_by_hand(tiny: ModuleType, tmp_path: Path) -> None:
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "cwd": tmp_path}
+    certificate = {"cert": str(tmp_path / "cert.pem"), "key": str(tmp_path / "key.pem")}
+    temporary = Security.temporary()
+    (tmp_path / "cert.pem").write_text(temporary.tls_ca_file)
+    (tmp_path / "key.pem").write_text(temporary.tls_client_key)
+    tls = {"ca-file": certificate["cert"], "scheduler": certificate, "worker": certificate, "client": certificate}
+    (tmp_path / "tls.yaml").write_text(
+        json.dumps({"distributed": {"comm": {"require-encryption": True, "tls": tls}}})  # JSON is YAML
+    )
+    environment = {**os.environ, "DASK_CONFIG": str(tmp_path)}
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "cwd": tmp_path, "env": environment}
     dask = [sys.executable, "-W", "ignore", "-m", "dask"]
     contact = tmp_path / "scheduler.json"
-    arguments = ["--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", str(contact)]
+    arguments = [
+        "--protocol",
+        "tls",
+        "--host",
+        "127.0.0.1",
+        "--port",
+        "0",
+        "--no-dashboard",
+        "--scheduler-file",
+        str(contact),
+    ]
     processes = [subprocess.Popen([*dask, "scheduler", *arguments], **quiet)]  # type: ignore[call-overload]
     try:
         address = address_in(contact, processes[0])
         worker = [*dask, "worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"]
         processes += [subprocess.Popen([*worker, "--name", name], **quiet) for name in ("a", "b")]  # type: ignore[call-overload]
-        report = reproduce(tiny.Tiny(), output=tmp_path / "output", quick=True, scheduler=address)
+        assert address.startswith("tls://")
+        with dask_config.set(
+            {"distributed.comm.tls.ca-file": tls["ca-file"], "distributed.comm.tls.client": certificate}
+        ):
+            report = reproduce(tiny.Tiny(), output=tmp_path / "output", quick=True, scheduler=address)
         assert report.exists()
         assert len(results(tmp_path / "output")) == 4
         assert all(process.poll() is None for process in processes), "the user's scheduler and workers must go on"

@@ -58,7 +58,9 @@ class ScoreTask(RunTask):
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", CaseWarning)
-                run(self.case(), output=run_path, overwrite=True, threads=threads, hooks=hooks).dataset.close()
+                run(
+                    self.case(), output=run_path, overwrite=True, threads=threads, hooks=hooks, progress=False
+                ).dataset.close()
         except SimulationError as error:
             outcome, message = Outcome.STOPPED, str(error)
         except PluginError as error:

@@ -1,4 +1,4 @@
-"""CLI: the progress display of a run."""
+"""Analysis: the progress display of a run."""
 
 import time
 from collections import deque
@@ -7,7 +7,8 @@ from datetime import timedelta
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn
 
-from sphframe.analysis import concerns
+from sphframe.analysis.summary import concerns
+from sphframe.console import log_console
 from sphframe.hooks import hookimpl
 from sphframe.interfaces import RunView
 
@@ -21,26 +22,38 @@ class ProgressDisplay:
     Rate and remaining time are computed from the last ten seconds, so the compilation in the first step and the steps
     before a resumed run do not count. The warnings are those of :func:`sphframe.analysis.concerns`.
 
-    On a terminal it is a bar; elsewhere, such as in a log file, it is a line for every tenth of the run.
+    On a terminal and in a notebook it is a bar; elsewhere, such as in a log file, it is a line for every tenth of the
+    run. What cannot be displayed, because a pipe is closed or a disk full, is left out and never ends the run.
 
     Parameters
     ----------
     console
-        where the display is printed.
+        where the display is printed; by default on the standard error stream.
+
+    Examples
+    --------
+    ``sphframe.run`` shows it on terminals and in notebooks. To have its lines in a log file too::
+
+        sphframe.run("dam-break", hooks=[sphframe.ProgressDisplay()])
     """
 
-    def __init__(self, console: Console) -> None:
-        self._console = console
+    def __init__(self, console: Console | None = None) -> None:
+        self._console = console or log_console()
         self._progress: Progress | None = None
         self._task = TaskID(0)
         self._tenths = self._outside = 0
         self._seen: deque[tuple[float, int, float]] = deque(maxlen=_WINDOW)  # wall clock, step, simulated time
 
+    @property
+    def is_live(self) -> bool:
+        """Whether it is a bar that moves, on a terminal or in a notebook."""
+        return self._console.is_terminal or self._console.is_jupyter
+
     @hookimpl
     def sphframe_run_started(self, simulation: RunView) -> None:
         """Show the bar."""
         self._tenths = int(10.0 * simulation.time / simulation.case.until)
-        if self._console.is_terminal:
+        if self.is_live:
             self._progress = Progress(
                 BarColumn(),
                 TextColumn("{task.percentage:3.0f}%"),
