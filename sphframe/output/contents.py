@@ -11,6 +11,7 @@ import numpy as np
 
 from sphframe.errors import OutputError
 from sphframe.interfaces import RunView, Status
+from sphframe.output.check import dimensions_of
 from sphframe.output.provenance import distributions, registered_name, software
 from sphframe.output.schema import CONVENTIONS, VARIABLES, RunStatus, Variable, encode_texts, unit_of
 from sphframe.registry import COMPONENT_KINDS
@@ -172,15 +173,10 @@ def _variables(simulation: RunView) -> dict[str, Variable]:
             raise OutputError(f"the case's diagnostic {diagnostic.name!r} has the name of another variable: rename it")
         diagnostics[diagnostic.name] = Variable(("probe_time",), diagnostic.unit, diagnostic.long_name)
     known = {name: variable for name, variable in VARIABLES.items() if name not in absent}
-    if dimension == 2:  # moments and angles are scalars
-        known |= {name: replace(v, dimensions=v.dimensions[:-1]) for name, v in known.items() if _is_turning(name)}
+    known = {name: replace(v, dimensions=dimensions_of(name, v, dimension)) for name, v in known.items()}
     mass = known.pop("particle_mass")
     fixed = {name: variable for name, variable in known.items() if "time" not in variable.dimensions}
     return {**fixed, **diagnostics, "particle_mass": mass, **known}
-
-
-def _is_turning(name: str) -> bool:
-    return "_moment" in name or name.startswith("body_ang")
 
 
 def _names(simulation: RunView) -> dict[str, Sequence[str]]:

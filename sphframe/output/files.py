@@ -11,6 +11,18 @@ def draft_path(path: Path) -> Path:
     return path.with_name(f".{path.name}.draft")
 
 
+def fresh_draft(path: Path) -> Path:
+    """Create the draft of ``path``, empty, and return its name.
+
+    What stands there is removed and never opened: it may be a link that somebody has put there, or a second name of
+    ``path`` itself, left by a process that was killed.
+    """
+    draft = draft_path(path)
+    draft.unlink(missing_ok=True)
+    os.close(os.open(draft, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
+    return draft
+
+
 @contextlib.contextmanager
 def replaced_as_a_whole(path: Path) -> Iterator[Path]:
     """Yield the name of a draft to write to; at the end sync it to the disk and rename it to ``path``.
@@ -28,7 +40,7 @@ def replaced_as_a_whole(path: Path) -> Iterator[Path]:
     ...     path.read_text(), len(list(path.parent.iterdir()))
     ('t,p\\n', 1)
     """
-    draft = draft_path(path)
+    draft = fresh_draft(path)
     try:
         yield draft
         descriptor = os.open(draft, os.O_RDWR)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sphframe.errors import InputError
+from sphframe.output.check import fault_of
 from sphframe.output.schema import RunStatus
 
 if TYPE_CHECKING:
@@ -54,7 +55,10 @@ def open_dataset(path: str | os.PathLike[str]) -> "xr.Dataset":
             " again"
         ) from error
     try:
-        return prepared(dataset, str(path))
+        found = prepared(dataset, str(path))
+        if "run_status" not in dataset:
+            _check(dataset, str(path))  # prepared and saved before
+        return found
     except BaseException:
         dataset.close()
         raise
@@ -81,6 +85,7 @@ def prepared(dataset: "xr.Dataset", name: str = "the dataset") -> "xr.Dataset":
         )
     if "run_status" not in dataset:
         return dataset
+    _check(dataset, name)
     try:
         last_values = [dataset["particle_mass"][-1]]
         if dataset.sizes["time"]:
@@ -103,3 +108,12 @@ def prepared(dataset: "xr.Dataset", name: str = "the dataset") -> "xr.Dataset":
     dataset.attrs["run_message"] = message
     dataset.attrs["completed"] = "yes" if status is RunStatus.COMPLETED else "no"
     return dataset
+
+
+def _check(dataset: "xr.Dataset", name: str) -> None:
+    fault = fault_of(dataset)
+    if fault:
+        raise InputError(
+            f"{name} is not the whole output of a sphframe run: it has {fault}; it is damaged, or of another program."
+            " Copy it again, or run again"
+        )

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from sphframe.errors import OutputError
 from sphframe.output.checkpoint import Checkpoint, checkpoint_path
-from sphframe.output.files import draft_path
+from sphframe.output.files import draft_path, fresh_draft
 from sphframe.output.lock import is_same_file, lock_file
 from sphframe.output.schema import FORMAT, RunStatus, encode_texts
 from sphframe.output.target import exists_message, locked_message
@@ -60,12 +60,8 @@ class RunFile:
         OutputError
             the file cannot be written, or exists and is not to be replaced.
         """
-        draft = draft_path(self.path)
         with self._reporting_failures():
-            draft.touch()
-            self._lock = lock_file(draft)
-            if self._lock is None:
-                raise OutputError(locked_message(self.path))
+            draft = self._locked_draft()
             try:
                 self._dataset = _open(draft, "w")
                 write_start(self._dataset)
@@ -148,6 +144,19 @@ class RunFile:
         """Close the file and unlock it."""
         with self._reporting_failures():
             self._close()
+
+    def _locked_draft(self) -> Path:
+        """Create the draft and lock it, unless another run has it."""
+        draft = draft_path(self.path)
+        old = lock_file(draft) if draft.is_file() and not draft.is_symlink() else -1
+        if old is not None:
+            draft = fresh_draft(self.path)
+            if old >= 0:
+                os.close(old)
+            self._lock = lock_file(draft)
+        if self._lock is None:
+            raise OutputError(locked_message(self.path))
+        return draft
 
     def _publish(self, draft: Path, overwrite: bool) -> None:
         """Rename the finished draft; a file that another run is writing is never replaced."""

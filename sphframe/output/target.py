@@ -20,6 +20,10 @@ def check_target(path: Path, overwrite: bool) -> None:
     """
     if path.is_dir():
         raise OutputError(f"{path} is a folder: name a file in it, such as {path / 'run.nc'}")
+    if path.is_symlink() and not path.exists():
+        raise OutputError(
+            f"{path} is a link to {os.readlink(path)}, which does not exist: remove the link, or give another --output"
+        )
     if path.exists():
         if not overwrite:
             raise OutputError(exists_message(path))

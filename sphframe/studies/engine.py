@@ -120,7 +120,7 @@ def carry_out(
     names = {label: task.name for label, task in wanted.items()}
     _make_folder(folder)
     with _locked(folder):
-        missing = {names[label]: task for label, task in wanted.items() if not (folder / names[label]).exists()}
+        missing = {names[label]: task for label, task in wanted.items() if not task.is_done(folder / names[label])}
         kept = len(set(names.values())) - len(missing)
         progress = Progress(total=kept + len(missing), kept=kept, done=kept)
         listener = on_progress or _ignore

@@ -16,6 +16,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar
 
+import xarray as xr
+
 import sphframe
 from sphframe.cases import Case, CaseWarning
 from sphframe.compiled import fingerprint
@@ -79,6 +81,14 @@ class Task(ABC):
             "made_with": made_with(self.case()),
         }
 
+    def is_done(self, path: Path) -> bool:
+        """Return whether ``path`` holds the result: a file that is missing, cut off or damaged does not."""
+        try:
+            xr.open_dataset(path, engine="netcdf4", decode_times=False).close()
+        except (OSError, ValueError, RuntimeError):
+            return False
+        return True
+
     @property
     def name(self) -> str:
         """Name of the result's file."""
@@ -107,6 +117,14 @@ class RunTask(Task):
     def of(cls, label: str, case: Case) -> "RunTask":
         """Return the task that runs ``case``."""
         return cls(label, registered_name(type(case)), case.model_dump(mode="json"))
+
+    def is_done(self, path: Path) -> bool:
+        """Return whether ``path`` holds the whole file of a run."""
+        try:
+            open_dataset(path).close()
+        except InputError:
+            return False
+        return True
 
     def perform(self, path: Path, threads: int, on_part: PartListener) -> None:
         """Run the case, or continue from the last checkpoint."""
@@ -166,7 +184,7 @@ def work(task: Task, folder: str, name: str, threads: int, on_part: PartListener
     unfinished = Path(folder) / UNFINISHED / name
     with _one_at_a_time, _Locked(lock_of(unfinished)), warnings.catch_warnings():
         warnings.simplefilter("ignore", CaseWarning)
-        if not result.exists():
+        if not task.is_done(result):
             task.perform(unfinished, threads, on_part)
             os.replace(unfinished, result)
             checkpoint_path(unfinished).unlink(missing_ok=True)

@@ -22,7 +22,7 @@ from sphframe.output.checkpoint import checkpoint_path
 from sphframe.simulation.run import run
 from sphframe.studies.drawing import thinned
 from sphframe.studies.series import fallback_share
-from sphframe.studies.tasks import PartHook, PartListener, RunTask
+from sphframe.studies.tasks import PartHook, PartListener, RunTask, Task
 
 _CURVE = 400
 """largest number of points that are kept of a curve"""
@@ -46,6 +46,8 @@ class ScoreTask(RunTask):
 
     Any outcome is a result, which is not repeated. Runs take seconds, so that an interrupted one starts again.
     """
+
+    is_done = Task.is_done
 
     def perform(self, path: Path, threads: int, on_part: PartListener) -> None:
         """Run the case and write the result."""
