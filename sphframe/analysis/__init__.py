@@ -8,7 +8,6 @@ from sphframe.analysis.fields import free_surface, particles_at, to_grid
 from sphframe.analysis.films import animate_run
 from sphframe.analysis.plots import plot_run
 from sphframe.analysis.probes import probe_statistics
-from sphframe.analysis.progress import ProgressDisplay
 from sphframe.analysis.reference import read_reference_series, references_for
 from sphframe.analysis.scales import pressure_scale, rest_pressure, time_scale
 from sphframe.analysis.series import running_mean, series_error
@@ -16,7 +15,6 @@ from sphframe.analysis.summary import concerns, front_arrival, summary
 from sphframe.analysis.wall_picture import plot_walls
 
 __all__ = [
-    "ProgressDisplay",
     "SphAccessor",
     "animate_run",
     "concerns",

@@ -6,7 +6,17 @@ from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, field_validator, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    Field,
+    ModelWrapValidatorHandler,
+    Tag,
+    ValidationError,
+    field_validator,
+    model_validator,
+)
 
 from sphframe.arrays import Array
 from sphframe.cases.explain import explain
@@ -15,6 +25,7 @@ from sphframe.cases.parameters import Component, Derived, quantity, unit_of, wri
 from sphframe.cases.scene import Scene
 from sphframe.errors import InputError
 from sphframe.interfaces.body_force import gravity_vector
+from sphframe.registry.options import boolean_numbers
 from sphframe.representation import html_table
 
 Gravity = Annotated[
@@ -144,6 +155,14 @@ class Case(BaseModel, ABC):
         if isinstance(given, bool):
             raise ValueError("must be a number, a text or a table, not true or false")
         return given
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _no_boolean_numbers_in_tables(cls, given: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        made = handler(given)
+        for place in boolean_numbers(given, made):
+            raise ValueError(f"{place.removeprefix('.')} must be a number, not true or false")
+        return made
 
     @model_validator(mode="after")
     def _derive_defaults(self) -> Self:

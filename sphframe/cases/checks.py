@@ -187,6 +187,11 @@ def _name_problems(scene: Scene) -> Iterator[str]:
         for name, count in Counter(names).items():
             if count > 1:
                 yield f"{count} {what} are called {name!r}; each needs a different name"
+    named |= {"walls and parts": [part.name for part in scene.wall_parts], "bodies": list(scene.bodies)}
+    for what, names in named.items():
+        for name in names:
+            if not name.strip() or not name.isprintable():
+                yield f"{name!r}, one of the {what}, is no name: give it one of letters, digits and signs"
     carried = {"wall": scene.walls, "probe": scene.probes, "gauge": scene.gauges}
     for what, members in carried.items():
         for member in members:

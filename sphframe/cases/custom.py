@@ -9,6 +9,7 @@ from sphframe.arrays import Array
 from sphframe.cases.case import Case
 from sphframe.cases.parameters import Component, Derived, quantity, with_default
 from sphframe.cases.scene import Gauge, Probe, Scene, WallPart
+from sphframe.errors import InputError
 from sphframe.geometry import Region, Wall
 
 
@@ -62,6 +63,7 @@ class Custom(Case):
 
     def scene(self) -> Scene:
         """Return what was given, with its bodies made."""
+        self._check_dimensions()
         lower = np.min([region.bounds()[0] for region in self.fluid], axis=0)
         upper = np.max([region.bounds()[1] for region in self.fluid], axis=0)
         levels = (region.level for region in self.fluid if region.level is not None)
@@ -75,6 +77,14 @@ class Custom(Case):
             wall_parts=self.wall_parts,
             bodies={name: body.create("rigid_bodies") for name, body in self.bodies.items()},
         )
+
+    def _check_dimensions(self) -> None:
+        """Raise an error if some parts are drawn in 2-D and others in 3-D, which have no common bounds."""
+        parts = [(f"fluid[{number}]", region.dimension) for number, region in enumerate(self.fluid)]
+        parts += [(f"wall {wall.name!r}", wall.dimension) for wall in self.walls]
+        if len({found for _, found in parts}) > 1:
+            wrong = [f"{part} has {found} coordinates" for part, found in parts if found != self.dimension]
+            raise InputError(f"{', '.join(wrong)}, but dimension = {self.dimension} needs {self.dimension}")
 
     def _vertical_extent(self, lower: Array, upper: Array, levels: Iterable[float]) -> float:
         """Return the extent of the fluid against gravity, m."""

@@ -10,7 +10,8 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from sphframe.analysis import ProgressDisplay, summary
+from sphframe.analysis import summary
+from sphframe.analysis.progress import ProgressDisplay
 from sphframe.cases import Case, CaseWarning, load_case
 from sphframe.cli.values import allow_imports_from_here
 from sphframe.console import log_console, result_console

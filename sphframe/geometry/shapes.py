@@ -139,6 +139,7 @@ class Box(Shape):
         return len(self.lower)
 
     def geometry(self, tolerance: float) -> Any:  # noqa: D102
+        check_box(self.lower, self.upper)
         if self.dimension == 2:
             return shapely.box(*self.lower, *self.upper)
         from trimesh.creation import box  # takes a second to import, and only solids need it

@@ -13,9 +13,13 @@ if TYPE_CHECKING:
 _TEXTS = ("title", "source", "case_name", "case_parameters", "components", "distributions", "software", "created")
 _NUMBERS = ("particle_spacing", "smoothing_length", "sound_speed", "reference_density", "gravity", "depth")
 _POINTS = ("gravity_vector", "domain_lower", "domain_upper")
-_USED_PARAMETERS = {
-    "until": float, "wall_treatment": dict, "interpolator": dict, "hydrostatic_lift": str, "gravity": object
-}  # fmt: skip
+_USED_PARAMETERS: dict[str, tuple[type, ...]] = {
+    "until": (float, int),
+    "wall_treatment": (dict,),
+    "interpolator": (dict,),
+    "hydrostatic_lift": (str,),
+    "gravity": (float, int, list),
+}
 _INDEXED = {
     **dict.fromkeys(("part_wall", "outline_wall", "triangle_wall"), "wall"),
     **dict.fromkeys(("wall_body", "probe_body", "gauge_body", "ghost_body"), "body"),
@@ -49,12 +53,12 @@ def _of_attributes(attributes: dict[str, Any]) -> str:
         parameters = json.loads(attributes["case_parameters"])
     except ValueError:
         return "case_parameters that are no JSON"
-    for name, kind in _USED_PARAMETERS.items():
-        value = parameters.get(name) if isinstance(parameters, dict) else None
-        if value is None or not isinstance(value, (kind, int) if kind is float else kind):
-            return f"no {name} among its case_parameters"
-        if kind is dict and not isinstance(value.get("name"), str):
-            return f"no name of the {name} among its case_parameters"
+    if not isinstance(parameters, dict):
+        return "case_parameters that are no table"
+    for name, kinds in _USED_PARAMETERS.items():
+        given: Any = parameters.get(name)
+        if not isinstance(given, kinds) or (isinstance(given, dict) and not isinstance(given.get("name"), str)):
+            return f"no {name}, or one of another type, among its case_parameters"
     return ""
 
 

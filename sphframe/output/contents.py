@@ -1,6 +1,7 @@
 """Output: what the file of a run contains: dimensions, variables, attributes, and the values of samples and frames."""
 
 import json
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -9,7 +10,7 @@ from typing import Any
 import netCDF4
 import numpy as np
 
-from sphframe.errors import OutputError
+from sphframe.errors import OutputError, SimulationError
 from sphframe.interfaces import RunView, Status
 from sphframe.output.check import dimensions_of
 from sphframe.output.provenance import distributions, registered_name, software
@@ -104,6 +105,27 @@ def frame_of(simulation: RunView) -> dict[str, Any]:
         **({"ghost_pressure": simulation.ghost_fields().pressure} if simulation.ghost_count else {}),
         "time": simulation.time,
     }
+
+
+_FINITE = re.compile(r".*(energy|mass)|(wall|part|body)_.*|(ghost_|probe_|)pressure")
+"""names of the values that are never missing"""
+
+
+def check_finite(values: Mapping[str, Any]) -> None:
+    """Check what is computed from a state, which may overflow although the state itself is finite.
+
+    Raises
+    ------
+    SimulationError
+        a value of a sample or a frame is not finite; particles that have been removed and dry gauges may have none.
+    """
+    removed = np.isnan(values["position"][:, 0]) if "position" in values else False
+    for name, value in values.items():
+        if _FINITE.fullmatch(name) and not np.all(np.isfinite(value) | (removed if name == "pressure" else False)):
+            raise SimulationError(
+                f"{name.replace('_', ' ')} is not finite, although the state of the particles is; likely causes:"
+                " parameters of extreme size, such as artificial_viscosity, reference_density or sound_speed"
+            )
 
 
 def _dimensions(simulation: RunView) -> dict[str, int | None]:

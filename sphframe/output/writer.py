@@ -13,7 +13,7 @@ from sphframe.errors import OutputError
 from sphframe.hooks import hookimpl
 from sphframe.interfaces import RunView
 from sphframe.output.checkpoint import Checkpoint
-from sphframe.output.contents import frame_of, planned_size, sample_of, write_start
+from sphframe.output.contents import check_finite, frame_of, planned_size, sample_of, write_start
 from sphframe.output.run_file import RunFile
 from sphframe.output.schema import RunStatus
 from sphframe.output.target import check_space, check_target
@@ -79,14 +79,18 @@ class NetCDFWriter:
     @hookimpl
     def sphframe_probes_due(self, simulation: RunView) -> None:
         """Take a sample of probes, sums and diagnostics."""
-        self._samples.append(sample_of(simulation))
+        sample = sample_of(simulation)
+        check_finite(sample)
+        self._samples.append(sample)
         if time.monotonic() - self._flushed_at > self.flush_interval:
             self._write_samples()
 
     @hookimpl
     def sphframe_frame_due(self, simulation: RunView) -> None:
         """Write all particles."""
-        self._file.append_frame(frame_of(simulation))
+        frame = frame_of(simulation)
+        check_finite(frame)
+        self._file.append_frame(frame)
         self._write_samples()
 
     @hookimpl

@@ -6,7 +6,7 @@ Options are the parameters of the component's constructor, most simply the field
 import dataclasses
 import inspect
 import typing
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, PydanticUserError, TypeAdapter, ValidationError
@@ -67,10 +67,31 @@ def _checked(what: str, value: Any, hint: Any) -> Any:
     except PydanticUserError:  # pydantic cannot check this type
         return value
     try:
-        return adapter.validate_python(value)
+        checked = adapter.validate_python(value)
+        for place in boolean_numbers(value, checked):
+            raise InputError(f"{what}{place} is true or false, and should be a number; expected {expected}")
+        return checked
     except ValidationError as error:
         problems = {_lower(e["msg"]) for e in error.errors()}
         raise InputError(f"{what} = {value!r}: {'; '.join(sorted(problems))}; expected {expected}") from error
+
+
+def boolean_numbers(given: Any, made: Any, place: str = "") -> Iterator[str]:
+    """Yield the places where ``given`` has true or false and ``made``, which pydantic made of it, has a number.
+
+    >>> list(boolean_numbers({"radius": 1.0, "centre": [0.0, True]}, {"radius": 1.0, "centre": (0.0, 1.0)}))
+    ['.centre[1]']
+    """
+    if isinstance(given, bool):
+        if isinstance(made, int | float) and not isinstance(made, bool):
+            yield place
+    elif isinstance(given, Mapping):
+        for key, inner in given.items():
+            found = made.get(key) if isinstance(made, Mapping) else getattr(made, str(key), None)
+            yield from boolean_numbers(inner, found, f"{place}.{key}")
+    elif isinstance(given, list | tuple) and isinstance(made, list | tuple):
+        for number, (inner, found) in enumerate(zip(given, made, strict=False)):
+            yield from boolean_numbers(inner, found, f"{place}[{number}]")
 
 
 def _parameters(component: type) -> Mapping[str, inspect.Parameter]:

@@ -65,6 +65,10 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array) -> 
 
     if broken < n:
         stop(broken, "has a state that is not finite", f"{_STEP_IS_TOO_LONG}, or a component that returned NaN")
+    if densities_outside:  # a band may be wide and its guard only count, but no volume belongs to such a density
+        least = int(np.argmin(rows[:n, columns.density]))
+        if rows[least, columns.density] <= 0.0:
+            stop(least, "has a density that is not positive", f"{_STEP_IS_TOO_LONG}, or a sound speed too low")
     _check_ghosts(system, case)
     if outside < n and guards.domain == "stop":
         stop(

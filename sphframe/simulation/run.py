@@ -196,7 +196,7 @@ def resume(
         the case, if it is a class or holds functions of your own; by default it is read from the output.
     trusted
         whether the file may name components as ``module:attribute``, whose code is then imported.
-    threads, hooks, checkpoint_every, checkpoint_interval
+    threads, hooks, progress, checkpoint_every, checkpoint_interval
         as for :func:`run`.
 
     Warns

@@ -10,7 +10,7 @@ from sphframe.arrays import Arrays
 from sphframe.cases import Case
 from sphframe.cases.placement import placed_scene
 from sphframe.compiled import use_threads
-from sphframe.errors import SimulationError
+from sphframe.errors import InputError, SimulationError
 from sphframe.neighbours import LargestMotion
 from sphframe.simulation.components import Components
 from sphframe.simulation.guards import check_state, check_time_step, check_traits
@@ -142,9 +142,15 @@ class Simulation(Observation):
 
     @contextmanager
     def _adding_time_and_step(self) -> Iterator[None]:
-        """Add time and step to errors of the simulation."""
+        """Add time and step to errors of the simulation; input that is found wrong in a step is such an error."""
         try:
             yield
+        except InputError as error:
+            if self.between_steps:
+                raise
+            failure = SimulationError(str(error))
+            failure.time, failure.step = self.time, self.step
+            raise failure from error
         except SimulationError as error:
             error.time, error.step = self.time, self.step
             raise

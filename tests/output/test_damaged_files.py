@@ -6,7 +6,7 @@ import shutil
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import netCDF4
 import numpy as np
@@ -14,7 +14,7 @@ import pytest
 
 from sphframe.analysis import summary
 from sphframe.analysis.live import _facts
-from sphframe.errors import InputError, OutputError
+from sphframe.errors import InputError, OutputError, SimulationError
 from sphframe.output import NetCDFWriter, open_dataset
 from sphframe.output.files import draft_path, replaced_as_a_whole
 from sphframe.output.lock import lock_file
@@ -93,6 +93,20 @@ def test_whatever_is_wrong_with_a_file_is_told_or_does_not_matter(sound: Path, t
     assert {"equal names", "no UTF-8", "no such wall", "no such body", "time runs backwards", "no time"} <= refused
     with open_dataset(sound) as dataset:
         assert dataset.attrs["completed"] == "yes"
+
+
+def test_no_value_that_is_not_finite_is_written(
+    fake: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulation, writer = fake.FakeSimulation(), NetCDFWriter(tmp_path / "run.nc")
+    writer.sphframe_run_started(simulation=simulation)
+    fake.play(writer, simulation, 3)
+    for name, what in (("energies", "kinetic energy"), ("ghost_fields", "ghost pressure")):
+        with monkeypatch.context() as patch:
+            infinite = {"kinetic": np.inf} if name == "energies" else SimpleNamespace(pressure=np.full(20, np.nan))
+            patch.setattr(simulation, name, lambda infinite=infinite: infinite)
+            with pytest.raises(SimulationError, match=f"{what} is not finite"):
+                fake.play(writer, simulation, 12)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="links are POSIX")

@@ -55,6 +55,12 @@ STOPS: list[tuple[str, Callable[[Any], None], dict[str, Any], str]] = [
     ("infinity", put("velocity", np.inf), {}, r"not finite|vanish|collapsed"),
     ("density", put("density", 3000.0), {}, r"outside the band 500 to 1500 kg/m\^3 .*guards.density = \"count\""),
     ("narrow band", put("density", 1100.0), {"guards": {"density_band": (0.95, 1.05)}}, r"band 950 to 1050 kg/m\^3"),
+    (
+        "counted",
+        put("density", -1.0),
+        {"guards": {"density": "count"}},
+        r"density that is not positive|volumes must be positive",
+    ),
     ("domain", put("position", -0.9), {}, r"has left the domain .*walls that leak.*guards.domain = \"remove\""),
     (
         "time step",
