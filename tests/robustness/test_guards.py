@@ -57,9 +57,9 @@ STOPS: list[tuple[str, Callable[[Any], None], dict[str, Any], str]] = [
     ("narrow band", put("density", 1100.0), {"guards": {"density_band": (0.95, 1.05)}}, r"band 950 to 1050 kg/m\^3"),
     (
         "counted",
-        put("density", -1.0),
+        put("density", -5000.0),
         {"guards": {"density": "count"}},
-        r"density that is not positive|volumes must be positive",
+        r"particle \d+ has a density that is not positive",
     ),
     ("domain", put("position", -0.9), {}, r"has left the domain .*walls that leak.*guards.domain = \"remove\""),
     (
