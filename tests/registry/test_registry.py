@@ -313,7 +313,7 @@ def test_the_distribution_of_each_component_of_this_project_is_known() -> None:
 
 
 def test_every_entry_point_group_is_in_the_documentation_with_its_class():
-    page = (Path(__file__).parents[2] / "docs" / "api.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "api" / "index.md").read_text(encoding="utf-8")
     for kind in registry.KINDS:
         (row,) = [line for line in page.splitlines() if line.startswith(f"| `sphframe.{kind}` |")]
         assert f"`{INTERFACES[kind]}`" in row if kind in INTERFACES else "hookimpl" in row
