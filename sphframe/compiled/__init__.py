@@ -1,6 +1,7 @@
 """Compiled: the tools with which the loops of Numba are written."""
 
 from sphframe.compiled import cache  # noqa: F401  (before any loop is declared)
+from sphframe.compiled.avx512 import prefer_avx512
 from sphframe.compiled.borrowed import borrowed
 from sphframe.compiled.distance import nearest, offset_between, squared_distance
 from sphframe.compiled.fast_exp import fast_exp
@@ -21,6 +22,7 @@ __all__ = [
     "local_array",
     "nearest",
     "offset_between",
+    "prefer_avx512",
     "specialise",
     "squared_distance",
     "use_threads",
