@@ -1,5 +1,6 @@
 """Boundary: the ghosts of all walls at the present time."""
 
+import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -11,7 +12,7 @@ from sphframe.boundary.movement import move_ghosts
 from sphframe.boundary.sides import WallSides
 from sphframe.boundary.solid_contact import SolidContacts
 from sphframe.boundary.wall_arrays import WallArrays
-from sphframe.geometry import Shape, Wall, ghosts_of, rotation_matrix, row_of, sides_of, wall_groups
+from sphframe.geometry import Shape, Wall, ghosts_of, rotation_matrix, row_of, sides_of, wall_groups, within
 from sphframe.interfaces import EvaluationPoint, Motion, RigidBody, Status
 from sphframe.neighbours import Sight
 from sphframe.particles import Periods
@@ -25,7 +26,8 @@ _STATE = (
 class Boundary:
     """Fixed ghost particles of ``walls``, carried by ``bodies``; ``fluid`` at the start tells which sides are wet.
 
-    They are in layers that fill the ``support``, or ``row_spacing`` (m) apart on the walls.
+    They are in layers that fill the ``support``, or ``row_spacing`` (m) apart on the walls; ghosts that no fluid
+    before the walls can reach are left out.
 
     Attributes
     ----------
@@ -82,10 +84,10 @@ class Boundary:
     ) -> None:
         groups = wall_groups(tuple(walls), fluid, spacing, periods)
         self.groups = [group for _, group in groups]
-        layers = int(np.ceil(support / spacing - 1e-9))
+        layers = math.ceil(support / spacing - 1e-9)
         sides = sides_of(self.groups, spacing, layers)
         if row_spacing is None:
-            drawn = ghosts_of(self.groups, spacing, layers)
+            drawn, sides = within(support, ghosts_of(self.groups, spacing, layers), sides)
         else:
             drawn = row_of(self.groups, row_spacing, spacing)
         self.dim = drawn.position.shape[1]

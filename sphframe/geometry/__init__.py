@@ -12,7 +12,7 @@ from sphframe.geometry.frames import (
     turning_velocities,
 )
 from sphframe.geometry.ghosts import GhostPoints, Panels, PlaneWalls, Sides, WallGroup
-from sphframe.geometry.groups import ghosts_of, panels_of, row_of, sides_of, wall_groups
+from sphframe.geometry.groups import ghosts_of, panels_of, row_of, sides_of, wall_groups, within
 from sphframe.geometry.lattice import Fill
 from sphframe.geometry.regions import (
     BoxRegion,
@@ -106,4 +106,5 @@ __all__ = [
     "turning_velocities",
     "wall_groups",
     "wall_lines",
+    "within",
 ]

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import shapely
@@ -103,6 +104,17 @@ def sides_of(groups: Sequence[WallGroup], spacing: float, layers: int) -> tuple[
         first += int(part.chart.max(initial=-1)) + 1
     together = Sides(*map(np.concatenate, zip(*parts, strict=True)))
     return together, np.repeat(np.arange(len(parts)), [len(part.ends) for part in parts])
+
+
+def within(
+    support: float, ghosts: GhostPoints, sides: tuple[Sides, IntArray] | None
+) -> tuple[GhostPoints, tuple[Sides, IntArray] | None]:
+    """Return what is left without ghosts as far from their wall as the ``support`` (m), which no fluid reaches."""
+    near: Any = np.linalg.norm(ghosts.position - ghosts.foot, axis=1) < support
+    if sides is not None:
+        own, group = sides
+        sides = own._replace(ghost_chart=own.ghost_chart[near], kind=own.kind[near]), group
+    return GhostPoints(*(part[near] for part in ghosts)), sides
 
 
 def panels_of(groups: Sequence[WallGroup], spacing: float) -> Panels:
