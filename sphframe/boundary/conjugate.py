@@ -40,19 +40,20 @@ CANCELLED = 0.1
 
 
 def make_conjugate(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, counts, reflections, wall_velocities, parameters
+    rows, fluid_count, ghosts, lists, counts, reflections, wall_velocities, parameters
 ):
-    """Correct the velocities of the ghosts, rows ``fluid_count`` .. ``fluid_count + g``; see :func:`fill_ghosts`."""
+    """Correct the velocities of the ``ghosts`` (k,), rows ``fluid_count + ghosts``; see :func:`fill_ghosts`."""
     limit = parameters.support * parameters.support
     per_h2 = SUPPORT * SUPPORT / limit
-    for g in numba.prange(counts.shape[0]):
+    for place in numba.prange(counts.shape[0]):
+        g = ghosts[place]
         offset = local_array(DIM)
         row = fluid_count + g
         ax = ay = az = 0.0
         power = 0.0
         total = 0.0
-        for k in range(counts[g]):
-            j = lists[g, k]
+        for k in range(counts[place]):
+            j = lists[place, k]
             r2 = 0.0
             for d in range(DIM):
                 offset[d] = rows[j, d] - rows[row, d]

@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import Any, Literal
 
+import numpy as np
+
 from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.conjugate import make_conjugate
@@ -74,17 +76,19 @@ class Filling:
         self._scratch = Scratch.of(8, self._dim)
 
     def __call__(self, rows: Array, lists: NeighbourLists, boundary: Boundary, parameters: LoopParameters) -> None:
-        """Fill the ghosts of ``boundary`` in ``rows`` (n + g, width), and set their statuses."""
+        """Fill the ghosts of ``boundary`` near the fluid in ``rows`` (n + g, width), and set their statuses."""
         if lists.points.shape[1] > self._scratch.members.shape[1]:
             self._scratch = Scratch.of(lists.points.shape[1], self._dim)
-        self._fill(
-            rows, lists.fluid_count, lists.points, lists.point_counts, boundary.points, boundary.lifts,
-            boundary.arrays, parameters, self._scratch, boundary.statuses,
-        )  # fmt: skip
+        around = lists.points, lists.point_counts
+        of_boundary = boundary.points, boundary.lifts, boundary.arrays, parameters, self._scratch, boundary.statuses
+        self._fill(rows, lists.fluid_count, lists.near, *around, *of_boundary)
+        if len(lists.left):
+            nothing = np.zeros(len(lists.left), np.uint32)
+            self._fill(rows, lists.fluid_count, lists.left, lists.points, nothing, *of_boundary)
+            lists.left = lists.left[:0]
         if self._make_conjugate is not None:
             self._make_conjugate(
-                rows, lists.fluid_count, lists.points, lists.point_counts, boundary.reflection, boundary.velocity,
-                parameters,
+                rows, lists.fluid_count, lists.near, *around, boundary.reflection, boundary.velocity, parameters
             )  # fmt: skip
 
 

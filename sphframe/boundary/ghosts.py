@@ -96,9 +96,11 @@ def _step(t):  # type: ignore[no-untyped-def]
 
 
 def fill_ghosts(  # type: ignore[no-untyped-def]
-    rows, fluid_count, lists, counts, points, lifts, walls, parameters, scratch, statuses
+    rows, fluid_count, ghosts, lists, counts, points, lifts, walls, parameters, scratch, statuses
 ):
-    """Interpolate to ``points`` (g, dim) and assign the ghosts, rows ``fluid_count`` .. ``fluid_count + g``.
+    """Interpolate to ``points`` (g, dim) and assign the ``ghosts`` (k,), rows ``fluid_count + ghosts``.
+
+    ``lists`` (k, capacity) and ``counts`` (k,): the fluid near the evaluation point of each of them.
 
     ``lifts`` (g, dim): from evaluation point to ghost, m; ``walls``: :class:`WallArrays`; ``parameters`` are
     :class:`LoopParameters`, ``scratch`` is a :class:`Scratch`. ``statuses`` (g,) is written.
@@ -107,9 +109,9 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
     limit = support * support
     per_h = SUPPORT / support
     pressing = PRESSED * parameters.reference_density * parameters.sound_speed**2
-    ghosts = statuses.shape[0]
+    count = ghosts.shape[0]
     chunks = scratch.offsets.shape[0]
-    blocks = -(-ghosts // BLOCK)
+    blocks = -(-count // BLOCK)
     for chunk in numba.prange(chunks):
         offsets = borrowed(scratch.offsets[chunk])
         columns = borrowed(scratch.columns[chunk])
@@ -122,7 +124,8 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
         mean_offset = local_array(DIM)
         mean_velocity = local_array(DIM)
         for block in range(chunk, blocks, chunks):  # wet ghosts are consecutive: each chunk gets some
-            for g in range(block * BLOCK, min((block + 1) * BLOCK, ghosts)):
+            for place in range(block * BLOCK, min((block + 1) * BLOCK, count)):
+                g = ghosts[place]
                 status = OK
                 n = 0
                 extrapolated = 0.0
@@ -131,8 +134,8 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                     px = points[g, 0]
                     py = points[g, 1]
                     pz = points[g, COLUMNS.z]
-                    for k in range(counts[g]):
-                        j = lists[g, k]
+                    for k in range(counts[place]):
+                        j = lists[place, k]
                         dx = rows[j, 0] - px
                         dy = rows[j, 1] - py
                         if PERIODIC:

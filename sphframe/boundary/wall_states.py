@@ -37,8 +37,9 @@ class WallStates:
             if capacity > self._scalars.shape[1]:
                 self._scalars = np.empty((CHUNKS, capacity, 5))
                 self._vectors = np.empty((CHUNKS, 2, capacity, self._boundary.dim))
+            self._rates[:] = 0.0
             self._loop(
-                rows, lists.points, lists.point_counts, self._boundary.points, self._boundary.lifts,
+                rows, lists.near, lists.points, lists.point_counts, self._boundary.points, self._boundary.lifts,
                 self._boundary.arrays, parameters, self._scalars, self._vectors, self._rates,
             )  # fmt: skip
 
@@ -64,9 +65,9 @@ class WallStates:
 
 
 def wall_rates(  # type: ignore[no-untyped-def]
-    rows, lists, counts, points, lifts, walls, parameters, scalars, vectors, rates
+    rows, ghosts, lists, counts, points, lifts, walls, parameters, scalars, vectors, rates
 ):
-    """Write the rate of the state of each wall particle at ``points`` (g, dim) to ``rates`` (g,).
+    """Write the rates of the states of ``ghosts`` (k,), of the wall particles at ``points`` (g, dim), to ``rates``.
 
     ``walls``: :class:`WallArrays`; ``scalars`` (chunks, capacity, 5) and ``vectors`` (chunks, 2, capacity, dim) are
     scratch.
@@ -78,10 +79,11 @@ def wall_rates(  # type: ignore[no-untyped-def]
         distances, slopes, volumes = scalars[chunk, :, 0], scalars[chunk, :, 1], scalars[chunk, :, 2]
         pressures, densities = scalars[chunk, :, 3], scalars[chunk, :, 4]
         offsets, velocities = vectors[chunk, 0], vectors[chunk, 1]
-        for g in range(chunk * rates.shape[0] // chunks, (chunk + 1) * rates.shape[0] // chunks):
+        for place in range(chunk * ghosts.shape[0] // chunks, (chunk + 1) * ghosts.shape[0] // chunks):
+            g = ghosts[place]
             n = 0
-            for k in range(counts[g]):
-                j = lists[g, k]
+            for k in range(counts[place]):
+                j = lists[place, k]
                 r2 = 0.0
                 for d in range(DIM):
                     offsets[n, d] = rows[j, d] - points[g, d]
@@ -95,7 +97,6 @@ def wall_rates(  # type: ignore[no-untyped-def]
                 pressures[n] = rows[j, COLUMNS.pressure]
                 densities[n] = rows[j, COLUMNS.density]
                 n += 1 if r2 < limit else 0
-            rates[g] = 0.0
             if n > 0:
                 near = Neighbours(
                     offsets[:n], distances[:n], slopes[:n], volumes[:n], pressures[:n], densities[:n], velocities[:n]

@@ -46,8 +46,14 @@ class NeighbourLists:
     fluid
         (clusters, capacity) uint32; row c holds ``fluid_counts[c]`` fluid neighbours, then ``ghost_counts[c]``
         ghosts, as indices of rows.
+    near
+        (k,) the ghosts that are in a list or may have fluid near their evaluation point; ``left`` (m,) those that were
+        when the lists were last built, and are no longer, until they have been filled without neighbours.
     points
-        (g, capacity) uint32 fluid neighbours of each evaluation point, ``point_counts`` (g,) of them.
+        (k, capacity) uint32 fluid neighbours of the evaluation points of the ghosts ``near``, ``point_counts`` (k,) of
+        them.
+    walls_move
+        whether ghosts and evaluation points may move.
     sight
         the sides of walls, at present, where walls are thin; None where nothing hides a neighbour. With it,
         ``shares`` (clusters, capacity, LANES) are those in which the members of a cluster of LANES see the entries of
@@ -65,8 +71,11 @@ class NeighbourLists:
         width: float | None = None,
         sight: Sight | None = None,
         periods: Periods | None = None,
+        *,
+        walls_move: bool = True,
     ) -> None:
         self.sight = sight
+        self.walls_move = walls_move
         self.periods = Periods.none(dim) if periods is None else periods
         self._shifts = np.zeros((len(self.periods.shifts()), 3))
         self._shifts[:, :dim] = self.periods.shifts()
@@ -84,11 +93,12 @@ class NeighbourLists:
         self.fluid = np.empty((clusters, 8), np.uint32)
         self.fluid_counts = np.zeros(clusters, np.uint32)
         self.ghost_counts = np.zeros(clusters, np.uint32)
-        self.points = np.empty((ghost_count, 8), np.uint32)
-        self.point_counts = np.zeros(ghost_count, np.uint32)
+        self.points = np.empty((0, 8), np.uint32)
+        self.point_counts = np.zeros(0, np.uint32)
+        self.near = self.left = np.zeros(0, np.int64)
+        self._is_near = np.ones(ghost_count, np.bool_)  # so that at first all others are left
         self._fluid_reference = np.zeros((fluid_count, dim))
-        self._ghost_reference = np.zeros((ghost_count, dim))
-        self._point_reference = np.zeros((ghost_count, dim))
+        self._ghost_reference = self._point_reference = np.zeros((ghost_count, dim))
         self._grid = Grid(np.zeros(3), np.ones(3), np.ones(3, np.int64))
         self._starts = np.zeros(2, np.int64)
         self._cells = np.zeros(fluid_count, np.int64)
@@ -103,17 +113,12 @@ class NeighbourLists:
 
     def resized(self, fluid_count: int) -> "NeighbourLists":
         """Return lists of the same kind for another number of fluid particles, not yet built."""
-        return NeighbourLists(
-            self.dim,
-            fluid_count,
-            self.ghost_count,
-            self.support,
-            self.skin,
-            self.cluster,
-            self.width,
-            self.sight,
-            self.periods,
-        )
+        lists = NeighbourLists(
+            self.dim, fluid_count, self.ghost_count, self.support, self.skin, self.cluster, self.width, self.sight,
+            self.periods, walls_move=self.walls_move,
+        )  # fmt: skip
+        lists._is_near = self._is_near
+        return lists
 
     @property
     def radius(self) -> float:
@@ -160,10 +165,28 @@ class NeighbourLists:
             )  # fmt: skip
             self._sides_reference = self.sight.ends.copy()
         of_ghosts = self.sight is not None and np.array_equal(evaluation_points, rows[n:, : self.dim])
-        self.points = self._around(evaluation_points, rows, self.points, self.point_counts, of_ghosts=of_ghosts)
+        self._list_points(rows, evaluation_points, of_ghosts=of_ghosts)
         self._fluid_reference[:] = rows[:n, : self.dim]
-        self._ghost_reference[:] = rows[n:, : self.dim]
-        self._point_reference[:] = evaluation_points
+        self._ghost_reference, self._point_reference = rows[n:, : self.dim], evaluation_points
+        if self.walls_move:
+            self._ghost_reference, self._point_reference = self._ghost_reference.copy(), evaluation_points.copy()
+
+    def _list_points(self, rows: Array, points: Array, *, of_ghosts: bool) -> None:
+        """Find the ghosts near the fluid, and list the fluid near their evaluation ``points`` (g, dim)."""
+        near = np.zeros(self.ghost_count, np.bool_)
+        _mark_near(
+            self.periods.wrapped(points), self.fluid_count, self.dim, self.radius, self._grid, self._starts,
+            self._shifts, self.fluid, self.fluid_counts, self.ghost_counts, near,
+        )  # fmt: skip
+        self.near, self.left = np.flatnonzero(near), np.flatnonzero(self._is_near & ~near)
+        self._is_near = near
+        count = len(self.near)
+        if count > len(self.points):
+            self.points = np.empty((count + count // 8, self.points.shape[1]), np.uint32)
+        self.point_counts = np.zeros(count, np.uint32)
+        self.points = self._around(
+            points[self.near], rows, self.points[:count], self.point_counts, self.near if of_ghosts else _NO_ORDER
+        )
 
     def largest_motion(self, rows: Array) -> LargestMotion:
         """Return the largest speed of the fluid ``rows``, and their largest displacement since :meth:`build`."""
@@ -186,9 +209,11 @@ class NeighbourLists:
             time for which everything is taken to keep its speed, s.
         """
         ahead = motion.speed * interval
-        walls = wall_speed * interval + largest_wall_displacement(
-            rows[self.fluid_count :], self._ghost_reference, evaluation_points, self._point_reference
-        )
+        walls = wall_speed * interval
+        if self.walls_move:
+            walls += largest_wall_displacement(
+                rows[self.fluid_count :], self._ghost_reference, evaluation_points, self._point_reference
+            )
         if motion.displacement + ahead + walls > self.skin:
             return False
         if 2.0 * (motion.displacement + ahead) <= self.skin:
@@ -224,6 +249,7 @@ class NeighbourLists:
             self.sight.ends[:] = state["sides"]
         self.sort(rows)  # the particles are in order; this makes the cell grid
         self.build(rows, state["points"])
+        self.left = self.left[:0]  # they are as they were filled before the state was saved
 
     def around(self, points: Array, rows: Array) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
         """Return lists (k, capacity) of the fluid near any ``points`` (k, dim) and their lengths (k,)."""
@@ -236,10 +262,12 @@ class NeighbourLists:
         rows: Array,
         lists: NDArray[np.uint32],
         counts: NDArray[np.uint32],
-        *,
-        of_ghosts: bool = False,
+        ghosts: IntArray = _NO_ORDER,
     ) -> NDArray[np.uint32]:
-        """List the fluid near ``points`` in ``lists``, or in a longer array where that is too short."""
+        """List the fluid near ``points`` in ``lists``, or in a longer array where that is too short.
+
+        ``ghosts`` (k,) are those that are at these points.
+        """
         while True:
             longest = _list_points(
                 self.periods.wrapped(points), rows, self.dim, self.radius, self._grid, self._starts, _NO_ORDER,
@@ -247,7 +275,7 @@ class NeighbourLists:
             )  # fmt: skip
             if longest < lists.shape[1]:
                 if self.sight is not None:
-                    keep_seen(points, rows, self.radius, lists, counts, of_ghosts, self.sight)
+                    keep_seen(points, rows, self.radius, lists, counts, ghosts, self.sight)
                 return lists
             lists = np.empty((len(points), _capacity(longest)), np.uint32)
 
@@ -360,6 +388,45 @@ def _collect(rows, dim, box, radius, grid, starts, order, first, members, found)
                     members[min(found, room)] = ordered
                     found += 1 if _box_distance2(rows, ordered, dim, box) < limit else 0
     return found
+
+
+@numba.njit(error_model="numpy")
+def _may_be_near(x, y, z, dim, radius, grid, starts):  # type: ignore[no-untyped-def]
+    """Whether a cell that is within ``radius`` of the point in each direction has members."""
+    origin, cell, shape = grid.origin, grid.cell, grid.shape
+    a0, a1 = 0, 0
+    if dim == 3:
+        a0, a1 = _cell_range(x - radius, x + radius, origin[0], cell[0], shape[0])
+        b0, b1 = _cell_range(y - radius, y + radius, origin[1], cell[1], shape[1])
+    else:
+        b0, b1 = _cell_range(x - radius, x + radius, origin[1], cell[1], shape[1])
+    c0, c1 = _cell_range(z - radius, z + radius, origin[2], cell[2], shape[2])
+    if c1 < c0:
+        return False
+    for a in range(a0, a1 + 1):
+        for b in range(b0, b1 + 1):
+            row = row_number(shape, a, b)
+            left = cell_number(shape, row, c0)
+            right = cell_number(shape, row, c1)
+            if starts[max(left, right) + 1] > starts[min(left, right)]:
+                return True
+    return False
+
+
+@numba.njit(parallel=True, cache=True, error_model="numpy")
+def _mark_near(  # type: ignore[no-untyped-def]
+    points, n, dim, radius, grid, starts, shifts, lists, counts, ghost_counts, near
+):
+    """Set ``near`` (g,) for ghosts in the ``lists``, and for those with ``points`` (g, dim) that may be near fluid."""
+    for c in numba.prange(counts.shape[0]):
+        for k in range(counts[c], counts[c] + ghost_counts[c]):
+            near[lists[c, k] - n] = True
+    for g in numba.prange(points.shape[0]):
+        for s in range(shifts.shape[0]):
+            if not near[g]:
+                x, y = points[g, 0] - shifts[s, 0], points[g, 1] - shifts[s, 1]
+                z = points[g, dim - 1] - shifts[s, dim - 1]
+                near[g] = _may_be_near(x, y, z, dim, radius, grid, starts)
 
 
 @numba.njit(error_model="numpy")

@@ -308,10 +308,10 @@ def share_points(points, rows, numbers, n, radius, lists, counts, shares, sight)
 
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
-def keep_seen(points, rows, radius, lists, counts, of_ghosts, sight):  # type: ignore[no-untyped-def]
+def keep_seen(points, rows, radius, lists, counts, ghosts, sight):  # type: ignore[no-untyped-def]
     """Take the particles out of the ``lists`` of ``points`` (k, 2) of which half or more is hidden from them.
 
-    Points ``of_ghosts`` are where the ghosts are, behind their walls: they see the particles that see them.
+    Points where ``ghosts`` (k,) are, behind their walls, see the particles that see them; other points have none.
     """
     for p in numba.prange(points.shape[0]):
         x, y = points[p, 0], points[p, 1]
@@ -323,8 +323,8 @@ def keep_seen(points, rows, radius, lists, counts, of_ghosts, sight):  # type: i
             lists[p, kept] = j
             if count < 0:
                 share = 1.0
-            elif of_ghosts:
-                share = share_of_ghost(rows[j, 0], rows[j, 1], x, y, p, near, count, sight)
+            elif ghosts.shape[0] > 0:
+                share = share_of_ghost(rows[j, 0], rows[j, 1], x, y, ghosts[p], near, count, sight)
             else:
                 share = share_of_fluid(x, y, rows[j, 0], rows[j, 1], near, count, sight)
             kept += 1 if share > 0.5 else 0

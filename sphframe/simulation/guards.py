@@ -125,7 +125,9 @@ def check_bodies(system: FluidSystem, lower: Array, upper: Array, spacing: float
 
 def _check_ghosts(system: FluidSystem, case: Case) -> None:
     boundary = system.boundary
-    g = _first_bad_ghost(system.rows, system.fluid_count, system.columns, boundary.statuses, len(Status))
+    g = _first_bad_ghost(
+        system.rows, system.fluid_count, system.columns, system.lists.near, boundary.statuses, len(Status)
+    )
     if g < boundary.count:
         row, columns = system.rows[system.fluid_count + g], system.columns
         raise SimulationError(
@@ -229,9 +231,9 @@ def _check_fluid(rows, n, columns, lower, upper, lowest, highest):  # type: igno
 
 
 @numba.njit(cache=True)
-def _first_bad_ghost(rows, first, columns, statuses, status_count):  # type: ignore[no-untyped-def]
-    """Return the first ghost whose state is not finite or whose status is not a :class:`Status`; g if there is none."""
-    for g in range(statuses.shape[0]):
+def _first_bad_ghost(rows, first, columns, ghosts, statuses, status_count):  # type: ignore[no-untyped-def]
+    """Return the first of ``ghosts`` whose state is not finite or whose status is no :class:`Status`; g without one."""
+    for g in ghosts:
         total = rows[first + g, columns.density] + rows[first + g, columns.pressure]
         for k in range(columns.density):
             total += rows[first + g, k]

@@ -105,6 +105,7 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
         width=0.75 * LANES ** (1.0 / dim) * spacing,
         sight=boundary.sight,
         periods=boundary.periods,
+        walls_move=bool(boundary.bodies),
     )
     pressure = _initial_pressure(case, scene, components, parameters, boundary, position, members)
     rows = _initial_rows(position, start.volume, pressure, boundary, components, parameters)
