@@ -110,13 +110,30 @@ def operator(
     if not (math.isfinite(smoothing_length) and smoothing_length > 0.0):
         raise InputError(f"smoothing_length must be a positive number of metres, got {smoothing_length!r}")
     chosen = create("kernels", kernel) if isinstance(kernel, str) else kernel
-    dim, support = points.shape[1], chosen.support * smoothing_length
-    starts, members = _search(points, positions, support)
+    near = _search(points, positions, chosen.support * smoothing_length)
+    return operator_of(interpolator, points, positions, volumes, near, lifts, smoothing_length, chosen)
+
+
+def operator_of(
+    interpolator: BoundaryInterpolator,
+    points: Array,
+    positions: Array,
+    volumes: Array,
+    near: tuple[Integers, Integers],
+    lifts: Array,
+    smoothing_length: float,
+    kernel: Kernel,
+) -> tuple[csr_array, Integers]:
+    """Return what :func:`operator` does, for checked arguments, where the particles ``near`` each point are known.
+
+    These are all that are nearer than the cut-off, as row starts and columns of a CSR matrix.
+    """
+    (starts, members), dim = near, points.shape[1]
     entries, statuses = np.zeros(len(members)), np.empty(len(points), dtype=np.int64)
     work = Workspace.of(int(np.diff(starts).max(initial=0)), dim)
-    weights_loop(interpolator, chosen, dim)(
-        positions, volumes, points, lifts, starts, members, support,
-        chosen.normalisation(dim) / smoothing_length**dim, work, entries, statuses,
+    weights_loop(interpolator, kernel, dim)(
+        positions, volumes, points, lifts, starts, members, kernel.support * smoothing_length,
+        kernel.normalisation(dim) / smoothing_length**dim, work, entries, statuses,
     )  # fmt: skip
     work.check(interpolator)
     return csr_array((entries, members, starts), shape=(len(points), len(positions))), statuses
@@ -206,9 +223,14 @@ def _search(points: Array, positions: Array, support: float) -> tuple[Integers, 
     members = np.fromiter((j for row in found for j in row), dtype=np.int64, count=int(counts.sum()))
     rows = np.repeat(np.arange(len(points)), counts)
     inside = np.sum((positions[members] - points[rows]) ** 2, axis=1) < support * support
-    starts = np.zeros(len(points) + 1, dtype=np.int64)
-    np.cumsum(np.bincount(rows[inside], minlength=len(points)), out=starts[1:])
-    return starts, members[inside]
+    return row_starts(rows[inside], len(points)), members[inside]
+
+
+def row_starts(rows: Integers, count: int) -> Integers:
+    """Return where each of ``count`` rows starts, from the ascending row of each entry."""
+    starts = np.zeros(count + 1, dtype=np.int64)
+    np.cumsum(np.bincount(rows, minlength=count), out=starts[1:])
+    return starts
 
 
 def _points(name: str, given: ArrayLike) -> Array:

@@ -49,6 +49,13 @@ class Periods(NamedTuple):
         """Return the points of the box that stand for ``points`` (n, dim)."""
         return points - self.turns(points) * self.length if self else points
 
+    def nearest(self, offsets: Array) -> Array:
+        """Return ``offsets`` (n, dim) between particles and points of the box as those of the nearest copies."""
+        if not self:
+            return offsets
+        length = np.where(self.repeats, self.length, np.inf)
+        return offsets - np.rint(offsets / length) * self.length
+
     def at_home(self, points: Array, slack: float) -> BoolArray:
         """Return which of ``points`` (n, dim) lie in the box, moved by ``-slack`` (m) so that round-off decides not."""
         inside = (points >= self.lower - slack) & (points < self.lower + self.length - slack)

@@ -12,7 +12,7 @@ import numpy as np
 
 from sphframe.arrays import Array, BoolArray
 from sphframe.boundary.boundary import Boundary
-from sphframe.boundary.operator import operator
+from sphframe.boundary.operator import operator_of, row_starts
 from sphframe.boundary.promises import first_contradiction
 from sphframe.cases import Case
 from sphframe.errors import SimulationError
@@ -24,6 +24,8 @@ COLLAPSED = 0.02
 """lowest adaptive time step over that at rest; below it, at speeds above 50 c0, the time step has collapsed"""
 FASTEST_BODY = 0.5
 """highest speed of a body over the sound speed: above it, the water is no longer weakly compressible"""
+SAMPLED = 1000
+"""number of ghosts whose weights are checked at each frame"""
 _STEP_IS_TOO_LONG = "a time step above the stability limit (set a smaller courant_number or time_step)"
 
 
@@ -170,8 +172,12 @@ def check_time_step(step: float, at_rest: float, speed: float) -> None:
         )
 
 
-def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator | None, kernel: Kernel, case: Case) -> None:
-    """Check at the present ghosts that the weights have the properties that the method's traits declare.
+def check_traits(
+    system: FluidSystem, interpolator: BoundaryInterpolator | None, kernel: Kernel, case: Case, turn: int = 0
+) -> None:
+    """Check at present that the weights have the properties that the method's traits declare.
+
+    Of many ghosts near the fluid, about :data:`SAMPLED` are checked, others at each ``turn``.
 
     Raises
     ------
@@ -179,31 +185,37 @@ def check_traits(system: FluidSystem, interpolator: BoundaryInterpolator | None,
         when they are not finite, negative in spite of ``non_negative``, or do not add up to one in spite
         of ``partition_of_unity``.
     """
-    if interpolator is None:
+    boundary, columns, near = system.boundary, system.columns, system.lists.near
+    stride = -(-len(near) // SAMPLED)
+    if interpolator is None or not len(near):
         return
-    boundary, columns, n = system.boundary, system.columns, system.fluid_count
-    fluid = system.rows[: system.fluid_count]
-    points = boundary.points
-    if not np.all(np.isfinite(points)) or n == 0 or not len(points):
-        return
-    position, number = boundary.periods.with_copies(fluid[:, columns.position], system.parameters.support)
-    matrix, statuses = operator(
+    places = np.arange(turn % stride, len(near), stride)
+    ghosts = near[places]
+    points = boundary.periods.wrapped(boundary.points)[ghosts]
+    listed = np.arange(system.lists.points.shape[1]) < system.lists.point_counts[places][:, None]
+    of, around = np.nonzero(listed)[0], system.rows[system.lists.points[places][listed]]
+    offset = boundary.periods.nearest(around[:, columns.position] - points[of])
+    inside = np.square(offset).sum(axis=1) < system.parameters.support**2
+    of, count = of[inside], int(inside.sum())
+    lift = boundary.lift_of_weights
+    matrix, _ = checked = operator_of(
         interpolator,
-        boundary.periods.wrapped(points),
-        position,
-        fluid[number, columns.volume],
-        smoothing_length=system.parameters.smoothing_length,
-        kernel=kernel,
-        lift=boundary.lift_of_weights,
+        points,
+        points[of] + offset[inside],
+        around[inside, columns.volume],
+        (row_starts(of, len(points)), np.arange(count)),
+        np.zeros_like(points) if lift is None else lift[ghosts],
+        system.parameters.smoothing_length,
+        kernel,
     )
-    found = first_contradiction(interpolator.traits, matrix, statuses)
+    found = first_contradiction(interpolator.traits, *checked)
     if found is not None:
-        count = int(np.diff(matrix.indptr)[found.point])
+        neighbours = int(np.diff(matrix.indptr)[found.point])
         raise SimulationError(
-            f"{_method(case).label} returned {found.what} for ghost {found.point} with {count} neighbours"
+            f"{_method(case).label} returned {found.what} for ghost {ghosts[found.point]} with {neighbours} neighbours"
             f" (lowest {found.lowest:.4g}, sum {found.sum:.6g}); fix the method or its traits: sphframe verify"
             f" {_method(case).name} makes the same check and shows a small example",
-            place=tuple(float(x) for x in points[found.point]),
+            place=tuple(float(x) for x in boundary.points[ghosts[found.point]]),
         )
 
 

@@ -184,7 +184,8 @@ class Simulation(Observation):
                 hook.sphframe_probes_due(simulation=self)
                 self.samples += 1
             if self._is_due(self.frames, self.case.frame_interval):
-                check_traits(self.system, self.components.interpolator, self.components.kernel, self.case)
+                chosen = self.components
+                check_traits(self.system, chosen.interpolator, chosen.kernel, self.case, self.frames)
                 hook.sphframe_frame_due(simulation=self)
                 self.frames += 1
             if self.time >= self.case.until:

@@ -6,9 +6,22 @@ import shapely
 import trimesh
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from scipy.spatial import cKDTree
 
 from sphframe.errors import InputError
-from sphframe.geometry import Box, BoxWall, Circle, Cylinder, Difference, Mesh, Sphere, Union, solid_within, wall_groups
+from sphframe.geometry import (
+    Box,
+    BoxWall,
+    Circle,
+    Cylinder,
+    Difference,
+    Mesh,
+    Sphere,
+    Union,
+    solid_within,
+    wall_groups,
+    within,
+)
 from sphframe.geometry.solid_walls import SolidWalls
 from sphframe.geometry.walls import CylinderWall, MeshWall, SphereWall
 
@@ -38,6 +51,17 @@ def test_the_wall_integral_of_a_face_and_of_an_edge():
     quarter = trimesh.creation.box(bounds=[[-9, 0, 0], [9, 9, 9]])
     one = 1 - marginal[0]
     np.testing.assert_allclose(wall_integral(quarter, np.array([[0, 0.5, 0.5]]), 1.0), 1 - one**2, atol=2e-3)
+
+
+def test_ghosts_that_no_fluid_reaches_are_left_out():
+    ((_, box),) = wall_groups((TANK,), [WATER], 0.02)
+    ghosts = box.ghosts(0.02, 4)
+    kept, _ = within(3.3 * 0.02, ghosts, None)
+    x, y, z = np.meshgrid(*(np.linspace(0.0, size, 21) for size in (1.0, 0.4, 0.5)))
+    fluid = cKDTree(np.stack([x.ravel(), y.ravel(), z.ravel()], axis=1))  # on the walls: the nearest that it may be
+    reached = fluid.query(ghosts.position)[0] < 3.3 * 0.02
+    assert set(map(tuple, ghosts.position[reached])) <= set(map(tuple, kept.position))
+    assert 0.6 < len(kept.wall) / len(ghosts.wall) < 0.75  # of four layers the last one, and what is deep in edges
 
 
 def test_a_container_alone_has_the_lattice_of_its_box():

@@ -55,6 +55,21 @@ def test_lists_hold_the_pairs_within_the_radius(dim, seed, fluid, ghosts, scale,
         near = np.linalg.norm(position[:fluid] - points[k], axis=1) < lists.radius
         found = near_point(lists, k)
         assert sorted(found) == list(np.flatnonzero(near))
+    listed = [
+        lists.fluid[c, a : a + b] for c, (a, b) in enumerate(zip(lists.fluid_counts, lists.ghost_counts, strict=True))
+    ]
+    assert set(np.concatenate(listed).astype(int) - fluid) <= set(lists.near)
+
+
+def test_ghosts_that_are_left_are_told_once():
+    rows, points = Columns.of(2).zeros(3), np.array([[0.0, -0.1], [2.0, -0.1]])
+    rows[1:, :2] = points
+    lists = NeighbourLists(2, 1, 2, support=0.4, skin=0.1)
+    for place, near, left in ((0.0, [0], [1]), (2.0, [1], [0]), (2.0, [1], [])):  # at first no ghost has been filled
+        rows[0, 0] = place
+        lists.sort(rows)
+        lists.build(rows, points)
+        assert (lists.near.tolist(), lists.left.tolist()) == (near, left)
 
 
 def test_clusters_are_compact():
