@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from sphframe.errors import InputError
+from sphframe.input_files import text_of
 
 
 def read_reference_series(folder: str | os.PathLike[str], name: str, column: int | str = 1) -> xr.DataArray:
@@ -46,7 +47,7 @@ def read_reference_series(folder: str | os.PathLike[str], name: str, column: int
         present = ", ".join(sorted(p.stem for p in folder.glob("*.csv"))) or "no .csv file"
         raise InputError(f"{folder} holds no {name}.csv; it holds {present}")
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
+        lines = text_of(path).splitlines()
         header = [line.lstrip("# ").rstrip() for line in lines if line.startswith("#")]
         rows = [line for line in lines if line.strip() and not line.startswith("#")]
         if not rows:

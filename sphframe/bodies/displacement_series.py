@@ -12,6 +12,7 @@ from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
 
 from sphframe.arrays import Array
 from sphframe.errors import InputError
+from sphframe.input_files import text_of
 from sphframe.interfaces.rigid_body import Motion, RigidBody, Surroundings
 
 _LENGTHS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
@@ -134,7 +135,7 @@ def read_text(path: Path) -> str:
         when it cannot be read.
     """
     try:
-        return path.read_text(encoding="utf-8-sig")
+        return text_of(path)
     except (OSError, ValueError) as error:
         raise InputError(f"cannot read the series {path}: {error}") from None
 

@@ -13,6 +13,7 @@ from sphframe.cases.checks import check_case
 from sphframe.cases.parameters import Component
 from sphframe.errors import InputError
 from sphframe.geometry import SHAPES
+from sphframe.input_files import text_of
 from sphframe.registry import is_address, load
 from sphframe.registry.nearest import did_you_mean
 
@@ -137,7 +138,7 @@ def read_toml(path: str | Path) -> tuple[str, str | None, dict[str, Any]]:
     """
     path = Path(path)
     try:
-        parameters = tomllib.loads(path.read_bytes().decode("utf-8-sig"))  # with or without a byte-order mark
+        parameters = tomllib.loads(text_of(path))
     except (OSError, ValueError) as error:  # ValueError: of TOML and of UTF-8, and a null character in the path
         raise InputError(f"cannot read the case file {path}: {_reason(error)}") from None
     except RecursionError:

@@ -3,6 +3,7 @@
 import contextlib
 import errno
 import json
+import sys
 import webbrowser
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
@@ -32,6 +33,7 @@ class WatchServer(ThreadingHTTPServer):
     """
 
     daemon_threads = True
+    request_queue_size = 128  # many pages may ask at once, and the default is 5
 
     def __init__(self, run: LiveRun, port: int) -> None:
         self.run = run
@@ -44,6 +46,11 @@ class WatchServer(ThreadingHTTPServer):
                 " give another --port, or --port 0 for any free one"
             ) from None
 
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Say nothing of clients that leave or send nothing; report anything else."""
+        if not isinstance(sys.exception(), OSError):
+            super().handle_error(request, client_address)
+
     @property
     def address(self) -> str:
         """Address of the page."""
@@ -52,6 +59,7 @@ class WatchServer(ThreadingHTTPServer):
 
 class _Handler(BaseHTTPRequestHandler):
     server: WatchServer
+    timeout = 10.0  # s that a client may send nothing
 
     def do_GET(self) -> None:
         if self.headers.get("Host") not in {f"{name}:{self.server.server_port}" for name in (_HOST, "localhost")}:

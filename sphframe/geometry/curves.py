@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 
 from sphframe.arrays import Array
+from sphframe.input_files import text_of
 
 _FUNCTIONS: dict[str, Callable[[Any], Any]] = {
     **{name: getattr(np, name) for name in ("sqrt", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh", "abs")},
@@ -118,7 +119,7 @@ def points_of_csv(path: Path) -> list[list[float]]:
         when the file cannot be read, or a line is not two numbers.
     """
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
+        lines = text_of(path).splitlines()
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "it is not a text in UTF-8"
         raise ValueError(f"cannot read {path}: {reason.lower()}") from None

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from sphframe.input_files import content_of
+
 
 def digest(path: Path) -> str:
     """Return the SHA-256 of a file.
@@ -17,7 +19,7 @@ def digest(path: Path) -> str:
         when it cannot be read.
     """
     try:
-        return hashlib.sha256(path.read_bytes()).hexdigest()
+        return hashlib.sha256(content_of(path)).hexdigest()
     except OSError as error:
         raise ValueError(f"cannot read the mesh {path}: {(error.strerror or str(error)).lower()}") from None
 

@@ -59,9 +59,13 @@ def check_space(path: Path, planned: int, frames: int) -> None:
     free = shutil.disk_usage(path.parent).free
     if planned > free:
         raise OutputError(
-            f"{path} would need about {planned / 1e9:.1f} GB for {frames} frames, but only {free / 1e9:.1f} GB are"
+            f"{path} would need about {_size(planned)} for {frames} frames, but only {_size(free)} are"
             " free: choose another --output, a larger frame_interval, or free some space"
         )
+
+
+def _size(count: int) -> str:
+    return f"{count / 1e9:.1f} GB" if count > 1e9 else f"{count / 1e6:.1f} MB"
 
 
 def exists_message(path: Path) -> str:

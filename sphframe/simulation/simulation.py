@@ -16,6 +16,7 @@ from sphframe.simulation.components import Components
 from sphframe.simulation.guards import check_state, check_time_step, check_traits
 from sphframe.simulation.initial_state import initial_system, loop_parameters
 from sphframe.simulation.interruption import Interruption, deferred_interruption
+from sphframe.simulation.memory import check_memory
 from sphframe.simulation.observation import Observation
 from sphframe.simulation.plugin_errors import naming_component, naming_hook
 from sphframe.simulation.run_clock import RunClock
@@ -64,6 +65,7 @@ class Simulation(Observation):
         self.between_steps = True
         self._clock = RunClock()
         scene = placed_scene(case)
+        check_memory(case, scene)
         with self._adding_time_and_step(), naming_component(case, running=False):
             components = Components.of_case(case)
             system = initial_system(case, scene, components, loop_parameters(case, scene, components))

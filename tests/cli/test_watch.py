@@ -6,6 +6,8 @@ import io
 import json
 import shutil
 import signal
+import socket
+import struct
 import subprocess
 import sys
 import threading
@@ -199,3 +201,20 @@ def test_a_browser_follows_the_run(run_file: Path, server: WatchServer) -> None:
         assert page.is_visible("#picture")
         chromium.close()
     assert not errors
+
+
+def test_silent_clients_are_dropped_and_many_are_served(
+    server: WatchServer, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(server.RequestHandlerClass, "timeout", 0.2)
+    silent = [socket.create_connection(("127.0.0.1", server.server_port)) for _ in range(60)]
+    for one in silent[:30]:  # a reset in place of a farewell
+        one.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        one.close()
+    for one in silent[30:]:
+        one.settimeout(20.0)
+        assert one.recv(1) == b"", "it is closed"
+        one.close()
+    assert get(server, "state.json")[0] == "application/json"
+    assert server.request_queue_size >= 100
+    assert "Traceback" not in capfd.readouterr().err
