@@ -52,8 +52,20 @@ def result_console() -> Console:
     return _plain(sys.stdout)
 
 
+def visible(text: str) -> str:
+    r"""Return ``text`` with characters that would control the terminal, or have no form, written as their codes.
+
+    >>> visible("caf\xe9 \x1b[31m")
+    'caf\xe9 \\x1b[31m'
+    """
+    return "".join(c if c.isprintable() or c == "\n" else ascii(c)[1:-1] for c in text)
+
+
+class _Plain(Console):
+    def print(self, *objects: Any, **options: Any) -> None:
+        super().print(*(visible(one) if isinstance(one, str) else one for one in objects), **options)
+
+
 def _plain(stream: Any) -> Console:
     lenient: Any = _Lenient(stream) if stream is not None else None
-    return Console(
-        file=lenient, stderr=stream is sys.stderr, markup=False, highlight=False, emoji=False, soft_wrap=True
-    )
+    return _Plain(file=lenient, stderr=stream is sys.stderr, markup=False, highlight=False, emoji=False, soft_wrap=True)

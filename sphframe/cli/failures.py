@@ -10,7 +10,7 @@ import typer
 from rich.text import Text
 from typer.core import TyperGroup
 
-from sphframe.console import log_console
+from sphframe.console import log_console, visible
 from sphframe.errors import SphframeError
 
 
@@ -65,7 +65,7 @@ def _report(error: BaseException) -> int:
 
 
 def _print_error(message: str) -> None:
-    first, *rest = message.splitlines() or [""]
+    first, *rest = visible(message).splitlines() or [""]
     console = log_console()
     console.print(Text.assemble(("error: ", "bold red"), first))
     for line in rest:
@@ -73,4 +73,4 @@ def _print_error(message: str) -> None:
 
 
 def _print_warning(message: Warning | str, category: type[Warning], *_: Any) -> None:
-    log_console().print(Text.assemble(("warning: ", "bold yellow"), " ".join(str(message).split())))
+    log_console().print(Text.assemble(("warning: ", "bold yellow"), visible(" ".join(str(message).split()))))

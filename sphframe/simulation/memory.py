@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import numpy as np
+
 from sphframe.cases import Case, Scene
 from sphframe.errors import InputError
 
@@ -19,14 +21,17 @@ def check_memory(case: Case, scene: Scene) -> None:
         they do; the message says which spacing fits.
     """
     dim, spacing = case.dimension, case.particle_spacing
+    free, per_volume = free_memory(), LEAST_BYTES[dim] / spacing**dim
+    if per_volume * sum(float(np.prod(np.subtract(*region.bounds()[::-1]))) for region in scene.fluid) < free:
+        return  # even if each region filled the box around it
     shapes = [region.geometry(region.coarse) for region in scene.fluid]
-    count = sum(shape.area if dim == 2 else shape.volume for shape in shapes) / spacing**dim
-    needed, free = LEAST_BYTES[dim] * count, free_memory()
+    needed = per_volume * sum(shape.area if dim == 2 else shape.volume for shape in shapes)
     if needed > free:
         fitting = spacing * (needed / free) ** (1.0 / dim)
         raise InputError(
-            f"particle_spacing = {spacing:g} m gives {count:.2g} particles, which need {needed / 1e9:.3g} GB of memory"
-            f" or more, but only {free / 1e9:.3g} GB are free: choose a spacing above {fitting:.2g} m, or free memory"
+            f"particle_spacing = {spacing:g} m gives {needed / LEAST_BYTES[dim]:.2g} particles, which need"
+            f" {needed / 1e9:.3g} GB of memory or more, but only {free / 1e9:.3g} GB are free: choose a spacing above"
+            f" {fitting:.2g} m, or free memory"
         )
 
 
