@@ -55,8 +55,8 @@ def result_console() -> Console:
 def visible(text: str) -> str:
     r"""Return ``text`` with characters that would control the terminal, or have no form, written as their codes.
 
-    >>> visible("caf\xe9 \x1b[31m")
-    'caf\xe9 \\x1b[31m'
+    >>> visible("\x1b[31mred")
+    '\\x1b[31mred'
     """
     return "".join(c if c.isprintable() or c == "\n" else ascii(c)[1:-1] for c in text)
 
