@@ -26,7 +26,7 @@ _INDEXED = {
 }
 """variables that hold indices along a dimension; of a body also -1"""
 _STATUS = ("run_status", "run_message")
-_KINDS = {"f8": "f", "i4": "iuf", "text": "OSU"}
+_KINDS = {"f8": "f", "i4": "iuf", "text": "OSTU"}
 
 
 def fault_of(dataset: "xr.Dataset") -> str:
