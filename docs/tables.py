@@ -13,6 +13,7 @@ from pydantic import BaseModel
 from sphinx.pycode import ModuleAnalyzer
 
 import sphframe
+from sphframe.analysis.figures import printed_unit
 from sphframe.cases import Case, Custom, ExactCase, Gauge, Guards, OpenBoundaries, Probe, WallPart, parameters_of
 from sphframe.cases.parameters import written
 from sphframe.cli.show import meanings
@@ -72,13 +73,6 @@ def _markdown(text: str) -> str:
     """Return text of a docstring as Markdown."""
     text = re.sub(r":\w+:`~?(?:[\w.]*\.)?(\w+)(?: <[^>]*>)?`", r"`\1`", text).replace("``", "`")
     return re.sub(r"\^([23])(?!\d)", lambda power: "²³"[int(power[1]) - 2], text).replace(" * ", " \\* ")
-
-
-def _unit(unit: str) -> str:
-    """Return a unit of the CF conventions, such as "kg m-3", as it is printed: "kg/m³"."""
-    unit = re.sub(r" ?(\w+)-([23])", lambda part: f"/{part[1]}{'²³'[int(part[2]) - 2]}", unit)
-    unit = re.sub(r" ?(\w+)-1", r"/\1", unit)
-    return "" if unit == "1" else re.sub(r"(?<=[a-z])2", "²", unit)
 
 
 def _first_sentence(component: Any) -> str:
@@ -141,7 +135,9 @@ def _case_keys() -> str:
         allowed = ", ".join(map(_code, _values(info.annotation)))
         default = {"(required)": "required", "(automatic)": "", "(none)": ""}.get(value, _code(value))
         default = "[table](#guards)" if name == "guards" else default
-        rows.append((_code(name), default, _unit(unit), _markdown(meaning) + (f": {allowed}" if allowed else "")))
+        rows.append(
+            (_code(name), default, printed_unit(unit), _markdown(meaning) + (f": {allowed}" if allowed else ""))
+        )
     return _table(("key", "default", "unit", "meaning"), rows)
 
 
@@ -234,7 +230,11 @@ def _takes_options(component: type) -> bool:
 def _variables() -> str:
     rows = []
     for name, variable in VARIABLES.items():
-        unit = _unit(variable.unit) + (" (in 2-D per m)" if variable.per_width else "")
+        unit = (
+            ""
+            if variable.unit == "1"
+            else printed_unit(variable.unit) + (" (in 2-D per m)" if variable.per_width else "")
+        )
         rows.append((_code(name), ", ".join(variable.dimensions), unit, variable.long_name))
     return _table(("variable", "dimensions", "unit", "meaning"), rows)
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -123,13 +123,16 @@ def move_walls(lines: "Sequence[Line2D]", dataset: xr.Dataset, time: float) -> N
 
 
 def draw_probes(axes: "Axes", dataset: xr.Dataset, time: float) -> "list[Line2D]":
-    """Mark where the pressure probes are at ``time`` (s), in the colours of their series, and return the marks."""
+    """Mark where the pressure probes are at ``time`` (s), in the colours of their series, and return the marks.
+
+    Probes that average over a disc have larger marks, on which those of points can be seen.
+    """
     if "probe_pressure" not in dataset:
         return []
     marks = [
-        axes.plot([], [], "o", markersize=5, markeredgecolor="white", markeredgewidth=0.8, zorder=4 - 0.1 * k,
-                  color=line_style(k)["color"])[0]
-        for k in range(dataset.sizes["probe"])
+        axes.plot([], [], "o", markersize=4 if radius == 0.0 else 8, markeredgecolor="white", markeredgewidth=0.8,
+                  zorder=4.5 if radius == 0.0 else 4.2, color=line_style(k)["color"])[0]
+        for k, radius in enumerate(dataset["probe_radius"].values)
     ]  # fmt: skip
     move_probes(marks, dataset, time)
     return marks
@@ -187,7 +190,14 @@ def view_of(dataset: xr.Dataset, frames: Sequence[xr.Dataset]) -> View:
     top = max([top, *(float(points[:, -1].max()) for points in bodies)])
     y1 = min(y0 + 1.15 * (top - y0), max(float(nodes[:, -1].max()), top))
     margin = 0.015 * (x1 - x0)
-    return (float(x0 - margin), float(x1 + margin)), (float(y0 - margin), float(y1 + margin))
+    below = min(margin, 0.05 * (y1 - y0))  # long flumes are no reason for empty space below their beds
+    return (float(x0 - margin), float(x1 + margin)), (float(y0 - below), float(y1 + below))
+
+
+def style_of(frames: Sequence[xr.Dataset], name: str) -> Field:
+    """Return how the field ``name`` of ``frames`` is drawn: pressures that are nowhere 100 Pa in Pa."""
+    small = all(float(np.nanmax(np.abs(frame[name].values))) < 100.0 for frame in frames)
+    return replace(FIELDS[name], unit="Pa", factor=1.0) if name == "pressure" and small else FIELDS[name]
 
 
 def colour_limits(dataset: xr.Dataset, frames: Sequence[xr.Dataset], name: str) -> tuple[float, float]:
@@ -195,7 +205,7 @@ def colour_limits(dataset: xr.Dataset, frames: Sequence[xr.Dataset], name: str) 
 
     They are 0 and rho0 g H for the pressure, and percentiles of the values for other fields.
     """
-    factor = FIELDS[name].factor
+    factor = style_of(frames, name).factor
     if name == "pressure" and pressure_scale(dataset) > 0.0:
         return 0.0, pressure_scale(dataset) * factor
     values = np.concatenate([frame[name].values for frame in frames]) * factor
@@ -232,13 +242,15 @@ def time_label(dataset: xr.Dataset, time: float) -> str:
 
 def run_title(dataset: xr.Dataset) -> str:
     """One line with case, method and resolution, and with the status of a run that is not complete."""
+    title = str(dataset.attrs["title"])
     parts = [
-        plain(str(dataset.attrs["title"]).capitalize()),
+        plain(title[:1].upper() + title[1:]),
         wall_method(case_of(dataset)),
         f"{dataset.sizes['particle']} particles, spacing {1e3 * dataset.attrs['particle_spacing']:g} mm",
     ]
     if int(dataset.attrs["dimension"]) == 3:
-        parts.append(f"slice at y = {_middle(dataset):.3g} ± {dataset.attrs['particle_spacing']:.2g} m")
+        at = f"slice at y = {_middle(dataset):.3g} ± {dataset.attrs['particle_spacing']:.2g} m"
+        parts.append(at.replace(" ", "\N{NO-BREAK SPACE}"))  # a title that is wrapped does not break here
     if dataset.attrs["completed"] != "yes":
         parts.append(str(dataset.attrs["run_status"]))
     return "  ·  ".join(parts)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from sphframe.analysis.figures import tidy
-from sphframe.cases import ExactCase
+from sphframe.analysis.figures import plain, printed_unit, tidy
+from sphframe.cases import Case, ExactCase
 from sphframe.errors import InputError, PluginError
 from sphframe.registry import is_address, load
 
@@ -17,12 +17,16 @@ if TYPE_CHECKING:
 
 
 def exact_case(dataset: xr.Dataset) -> ExactCase | None:
-    """Return the case of a run with a frame and a sample, if it knows the exact solution; else None.
+    """Return the case of a run with a frame and a sample, if it knows the exact solution; else None."""
+    case = case_that_ran(dataset) if dataset.sizes["time"] and dataset.sizes["probe_time"] else None
+    return case if isinstance(case, ExactCase) else None
+
+
+def case_that_ran(dataset: xr.Dataset) -> Case | None:
+    """Return the case of a run; None if it is not installed.
 
     A case given as ``module:Class`` is found if its module has been imported: a file never makes sphframe import code.
     """
-    if not dataset.sizes["time"] or not dataset.sizes["probe_time"]:
-        return None
     name = dataset.attrs["case_name"]
     if is_address(name):
         module, _, attribute = name.partition(":")
@@ -32,7 +36,7 @@ def exact_case(dataset: xr.Dataset) -> ExactCase | None:
             model = load("cases", name)
         except PluginError:  # it is not installed here
             return None
-    if not (isinstance(model, type) and issubclass(model, ExactCase)):
+    if not (isinstance(model, type) and issubclass(model, Case)):
         return None
     return model(**json.loads(dataset.attrs["case_parameters"]))
 
@@ -59,10 +63,10 @@ def draw_exact(axes: "list[Axes]", dataset: xr.Dataset, case: ExactCase, exact: 
     for panel, (name, value) in zip(axes, exact.data_vars.items(), strict=False):
         (dim,) = value.dims
         x, order = value[dim].values, np.argsort(value[dim].values, kind="stable")
-        panel.plot(x, measured[name].values, ".", markersize=2.5, label=case.wall_method)
+        panel.plot(x, measured[name].values, ".", markersize=2.5, label="run")
         panel.plot(x[order], value.values[order], color="black", linewidth=1.0, label="exact")
         for set_label, array in ((panel.set_xlabel, value[dim]), (panel.set_ylabel, value)):
             label, unit = array.attrs.get("long_name", str(array.name)), array.attrs.get("units", "1")
-            set_label(f"{label} ({unit})" if unit != "1" else label, fontsize=10)
+            set_label(plain(label if unit == "1" else f"{label} ({printed_unit(unit)})"), fontsize=10)
         panel.legend(fontsize=9, frameon=False)
         tidy(panel)

@@ -1,6 +1,7 @@
 """Analysis: how every figure is made and looks. matplotlib is imported on first use."""
 
 import os
+import re
 from typing import TYPE_CHECKING, Any
 
 from sphframe.errors import InputError, OutputError
@@ -23,6 +24,16 @@ def plain(text: str) -> str:
     """Return a name as matplotlib shows it letter by letter: ``$`` starts no formula, and ``_`` hides no label."""
     text = text.replace("$", r"\$")
     return f" {text}" if text.startswith("_") else text
+
+
+def printed_unit(unit: str) -> str:
+    """Return a unit of the CF conventions as it is printed.
+
+    >>> printed_unit("kg m-3"), printed_unit("m s-1"), printed_unit("J m-1")
+    ('kg/m³', 'm/s', 'J/m')
+    """
+    unit = re.sub(r" ?([A-Za-z]+)-([123])", lambda part: f"/{part[1]}{('', '²', '³')[int(part[2]) - 1]}", unit)
+    return re.sub(r"(?<=[A-Za-z])2", "²", unit)
 
 
 def figure_class() -> type["Figure"]:

@@ -16,7 +16,6 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from sphframe.analysis.drawing import (
-    FIELDS,
     Field,
     View,
     colour_limits,
@@ -29,6 +28,7 @@ from sphframe.analysis.drawing import (
     run_title,
     shown_particles,
     stretch_of,
+    style_of,
     vertical_axis,
     view_of,
     with_stretch,
@@ -163,7 +163,8 @@ def film_frames(
     figure_class()
     stored = dataset["time"].values
     shown = [particles_at(dataset, float(t)) for t in stored[:: max(len(stored) // 8, 1)]] or [particles_at(dataset)]
-    picture = _FilmPicture(dataset, field, view_of(dataset, shown), colour_limits(dataset, shown, field))
+    style, limits = style_of(shown, field), colour_limits(dataset, shown, field)
+    picture = _FilmPicture(dataset, field, style, view_of(dataset, shown), limits)
     for time in stored if times is None else times:
         yield picture.at(float(time))
 
@@ -179,11 +180,11 @@ class _FilmPicture:
         values at the ends of the colour bar, in the unit of the field.
     """
 
-    def __init__(self, dataset: xr.Dataset, field: str, view: View, limits: tuple[float, float]) -> None:
+    def __init__(self, dataset: xr.Dataset, field: str, style: Field, view: View, limits: tuple[float, float]) -> None:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-        self._dataset, self._field, self._limits = dataset, field, limits
-        self._axes = _film_axes(dataset, FIELDS[field], view, limits)
+        self._dataset, self._field, self._factor, self._limits = dataset, field, style.factor, limits
+        self._axes = _film_axes(dataset, style, view, limits)
         figure: Any = self._axes.figure
         canvas: Any = FigureCanvasAgg(figure)
         self._canvas = canvas
@@ -192,7 +193,7 @@ class _FilmPicture:
         self._walls = draw_walls(self._axes, dataset, 0.0)
         canvas.draw()  # computes the layout of the figure
         figure.set_layout_engine("none")
-        self._dots = _particle_markers(self._axes, dataset, FIELDS[field].colours)
+        self._dots = _particle_markers(self._axes, dataset, style.colours)
         for artist in (self._title, *self._walls, *self._probes):
             artist.set_animated(True)
         canvas.draw()
@@ -213,8 +214,7 @@ class _FilmPicture:
 
     def _move_particles(self, frame: xr.Dataset) -> None:
         low, high = self._limits
-        factor = FIELDS[self._field].factor
-        position, values = shown_particles(self._dataset, frame, frame[self._field].values * factor)
+        position, values = shown_particles(self._dataset, frame, frame[self._field].values * self._factor)
         level = np.clip(np.nan_to_num((values - low) / (high - low)) * _LEVELS, 0, _LEVELS - 1).astype(int)
         order = np.argsort(level, kind="stable")
         ends = np.searchsorted(level[order], np.arange(1, _LEVELS + 1))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from sphframe.analysis.figures import line_style, plain, tidy
+from sphframe.analysis.figures import line_style, plain, printed_unit, tidy
 from sphframe.analysis.scales import pressure_scale, time_scale
 from sphframe.analysis.work import work_of_bodies
 from sphframe.arrays import Array
@@ -86,8 +86,8 @@ def _draw_bodies(axes: "Axes", dataset: xr.Dataset) -> None:
         if lengths:
             other.grid(visible=False)
             other.spines["right"].set_visible(True)
-            other.legend(fontsize=8, frameon=False, loc="lower right")
-            axes.legend(fontsize=8, frameon=False, loc="upper right")
+            other.get_legend().remove()
+            _legend_above(axes, [*axes.get_lines(), *other.get_lines()])
 
 
 def _draw_forces(axes: "Axes", dataset: xr.Dataset) -> None:
@@ -105,12 +105,12 @@ def _draw_forces(axes: "Axes", dataset: xr.Dataset) -> None:
         for m, axis in enumerate(space)
         if m in (0, len(space) - 1)
     ]
-    unit = dataset["wall_force"].attrs["units"].replace(" m-1", "/m")
+    unit = printed_unit(dataset["wall_force"].attrs["units"])
     factor, prefix = _prefix(max((float(np.abs(v).max(initial=0.0)) for _, v in lines), default=0.0))
     shown = [(name, values * factor) for name, values in lines[:_MOST_LINES]]
     _draw_lines(axes, dataset, shown, f"force of the fluid ({prefix}{unit})")
     if len(lines) > _MOST_LINES:
-        axes.set_title(f"{_MOST_LINES} of {len(lines)} forces", fontsize=9, loc="left")
+        axes.set_title(f"{_MOST_LINES} of {len(lines)} forces", fontsize=9, loc="right")
 
 
 def _draw_energies(axes: "Axes", dataset: xr.Dataset) -> None:
@@ -126,7 +126,7 @@ def _draw_energies(axes: "Axes", dataset: xr.Dataset) -> None:
         )
     factor, prefix = _prefix(max(float(np.nanmax(np.abs(values))) for values in changes.values()))
     labels = {"potential": "change of potential", "internal": "change of internal", "total": "change of total"}
-    unit = dataset["total_energy"].attrs["units"].replace(" m-1", "/m")
+    unit = printed_unit(dataset["total_energy"].attrs["units"])
     lines = [(labels.get(name, name), values * factor) for name, values in changes.items()]
     by_label = {labels.get(name, name): style for name, style in styles.items()}
     _draw_lines(axes, dataset, lines, f"energy ({prefix}{unit})", styles=by_label)
@@ -142,10 +142,17 @@ def _draw_lines(
     start: int = 0,
     styles: dict[str, dict[str, Any]] | None = None,
 ) -> None:
-    """Draw series over the samples' times in full; the limits show every value, and zero if ``from_zero``."""
+    """Draw series over the samples' times in full; the limits show every value, and zero if ``from_zero``.
+
+    A series that lies on an earlier one is dashed and above it, so that both are seen.
+    """
     t = dataset["probe_time"].values
+    before: list[Array] = []
     for k, (name, values) in enumerate(lines):
         style = {"linewidth": 1.1 if k == 0 else 0.9, "zorder": 3 - 0.1 * k, **line_style(start + k)}
+        if any(np.nanmax(np.abs(values - other)) <= 0.02 * np.ptp(other) for other in before):
+            style |= {"linestyle": (0, (4, 4)), "zorder": 3.5}
+        before.append(values)
         axes.plot(t, values, label=plain(name), **(style | (styles or {}).get(name, {})))
     drawn = np.concatenate([np.asarray(line.get_ydata(), dtype=np.float64) for line in axes.get_lines()])
     drawn = drawn[np.isfinite(drawn)] if np.isfinite(drawn).any() else np.zeros(1)
@@ -158,8 +165,14 @@ def _draw_lines(
     axes.set(xlim=(0.0, float(t[-1]) if t[-1] > 0.0 else 1.0), ylim=(low - 0.05 * span, high + 0.08 * span))
     axes.set_xlabel("t (s)", fontsize=10)
     axes.set_ylabel(label, fontsize=10)
-    axes.legend(fontsize=8, frameon=True, framealpha=0.75, edgecolor="none", ncols=2, loc="best")
+    _legend_above(axes, axes.get_lines())
     tidy(axes)
+
+
+def _legend_above(axes: "Axes", lines: Sequence[Any]) -> None:
+    """Explain ``lines`` above the axes, where the legend hides none of them."""
+    place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.1}
+    axes.legend(handles=lines, fontsize=8, frameon=False, ncols=3, handlelength=1.8, columnspacing=1.2, **place)
 
 
 def _prefix(largest: float) -> tuple[float, str]:

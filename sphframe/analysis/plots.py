@@ -9,7 +9,6 @@ import numpy as np
 import xarray as xr
 
 from sphframe.analysis.drawing import (
-    FIELDS,
     View,
     beyond,
     colour_limits,
@@ -22,6 +21,7 @@ from sphframe.analysis.drawing import (
     field_to_draw,
     run_title,
     stretch_of,
+    style_of,
     time_label,
     vertical_axis,
     view_of,
@@ -31,6 +31,7 @@ from sphframe.analysis.exact import draw_exact, exact_case
 from sphframe.analysis.fields import particles_at
 from sphframe.analysis.figures import figure_class, new_figure, save_figure, tidy
 from sphframe.analysis.histories import history_panels
+from sphframe.analysis.reference import shipped_references
 from sphframe.cases import ExactCase
 
 if TYPE_CHECKING:
@@ -71,7 +72,8 @@ def plot_run(
     times
         times in s; by default four that are evenly distributed over the run.
     reference
-        one or several series of p/(rho0 g H) over t sqrt(g/H), drawn together with the probes.
+        one or several series of p/(rho0 g H) over t sqrt(g/H), drawn together with the probes; by default those
+        that the case ships, such as the measured pressure of the dam break.
     surface
         draw the free surface too: the line on which the particles fill half of the space.
     width
@@ -97,7 +99,8 @@ def plot_run(
     rows = math.ceil(len(frames) / columns)
     stretch = stretch_of(view, (width - 1.6) / columns)
     height = rows * _panel_height(view, (width - 1.6) / columns, stretch)
-    series = history_panels(dataset, reference) if dataset.sizes["probe_time"] > 1 and exact is None else []
+    shown = shipped_references(dataset) if reference is None else reference
+    series = history_panels(dataset, shown) if dataset.sizes["probe_time"] > 1 and exact is None else []
     solution = xr.Dataset() if exact is None else exact.exact(dataset)
     below = 2.5 * math.ceil(len(series) / 2) + 2.5 * math.ceil(len(solution.data_vars) / _EXACT_COLUMNS)
     figure = new_figure(width, height + below + 1.0, dpi=150)
@@ -143,7 +146,7 @@ def _draw_panels(
     surface: bool,
 ) -> None:
     """Draw each of ``frames`` in one of the ``panels`` (rows, columns) of ``figure``, with one colour bar for all."""
-    style = FIELDS[field]
+    style = style_of(frames, field)
     limits = colour_limits(dataset, frames, field)
     for axes, frame in zip(panels.flat, frames, strict=False):
         time = float(frame["time"])

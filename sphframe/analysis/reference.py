@@ -1,4 +1,4 @@
-"""Analysis: reference series in a folder of the user."""
+"""Analysis: reference series, in a folder of the user or shipped with a case."""
 
 import os
 import re
@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from sphframe.analysis.exact import case_that_ran
 from sphframe.errors import InputError
 from sphframe.input_files import text_of
 
@@ -20,7 +21,7 @@ def read_reference_series(folder: str | os.PathLike[str], name: str, column: int
     Parameters
     ----------
     folder
-        the user's reference data; sphframe contains none.
+        the folder that holds the file.
     name
         name of the file, without ``.csv``.
     column
@@ -99,3 +100,10 @@ def references_for(dataset: xr.Dataset, source: str | os.PathLike[str]) -> list[
             " file, or give it the name of the probe, as in measured_P1.csv"
         )
     return [read_reference_series(source, name) for name in names]
+
+
+def shipped_references(dataset: xr.Dataset) -> list[xr.DataArray]:
+    """Return the reference series that the case of a run ships, by the names to show; none if it is not installed."""
+    case = case_that_ran(dataset)
+    files = {} if case is None or "probe_pressure" not in dataset else case.references()
+    return [read_reference_series(path.parent, path.stem).rename(name) for name, path in files.items()]

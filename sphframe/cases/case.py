@@ -3,6 +3,7 @@
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
@@ -175,6 +176,10 @@ class Case(BaseModel, ABC):
     @abstractmethod
     def scene(self) -> Scene:
         """Return the walls, fluid, bodies and probes of the case."""
+
+    def references(self) -> Mapping[str, Path]:
+        """Return CSV files of p/(rho0 g H) over t sqrt(g/H) that are drawn with the probes, by the name to show."""
+        return {}
 
     @property
     def gravity_vector(self) -> Array:

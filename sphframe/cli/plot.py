@@ -14,5 +14,5 @@ def plot_command(
     target = output or path.with_suffix(".png")
     with open_dataset(path) as dataset:
         series = [one for source in references for one in references_for(dataset, source)]
-        plot_run(dataset, target, field=field, times=times or None, reference=series, surface=surface)
+        plot_run(dataset, target, field=field, times=times or None, reference=series or None, surface=surface)
     print(f"wrote {target}")
