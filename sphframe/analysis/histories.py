@@ -172,7 +172,8 @@ def _draw_lines(
 def _legend_above(axes: "Axes", lines: Sequence[Any]) -> None:
     """Explain ``lines`` above the axes, where the legend hides none of them."""
     place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.1}
-    axes.legend(handles=lines, fontsize=8, frameon=False, ncols=3, handlelength=1.8, columnspacing=1.2, **place)
+    columns = 3 if axes.get_figure(root=True).get_figwidth() >= 6.0 else 2  # type: ignore[union-attr]
+    axes.legend(handles=lines, fontsize=8, frameon=False, ncols=columns, handlelength=1.8, columnspacing=1.2, **place)
 
 
 def _prefix(largest: float) -> tuple[float, str]:

@@ -117,7 +117,8 @@ class LiveRun:
 
     def _drawn(self, dataset: xr.Dataset) -> bytes:
         picture = io.BytesIO()
-        figure = plot_run(dataset, field=self._field, times=[float(dataset["time"][-1])], width=6.4)
+        times = [float(dataset["time"][-1])]
+        figure = plot_run(dataset, field=self._field, times=times, width=4.2)  # legible on a telephone
         figure.savefig(picture, format="png")
         return picture.getvalue()
 
@@ -134,7 +135,7 @@ def _facts(dataset: xr.Dataset, status: str) -> dict[str, str]:
     if dataset.sizes["probe_time"]:
         last = dataset.isel(probe_time=-1)
         now, step, elapsed = float(last["probe_time"]), int(last["step"]), float(last["wall_clock"])
-        share = math.floor(100.0 * min(now / until, 1.0) + 1e-9)
+        share = 100 if status == "completed" else math.floor(100.0 * min(now / until, 1.0) + 1e-9)
         facts["time"] = f"{now:.4g} of {until:.4g} s ({share} %), step {step:,}, {dataset.sizes['time']} frames"
         if elapsed > 0.0:
             facts["rate"] = f"{step / elapsed:,.0f} steps/s, {now / elapsed:.2g} simulated s per s"

@@ -77,7 +77,7 @@ def plot_run(
     surface
         draw the free surface too: the line on which the particles fill half of the space.
     width
-        of the picture, inches; below 10, the times are drawn below each other.
+        of the picture, inches; below 10, all panels are drawn below each other.
 
     Returns
     -------
@@ -102,7 +102,8 @@ def plot_run(
     shown = shipped_references(dataset) if reference is None else reference
     series = history_panels(dataset, shown) if dataset.sizes["probe_time"] > 1 and exact is None else []
     solution = xr.Dataset() if exact is None else exact.exact(dataset)
-    below = 2.5 * math.ceil(len(series) / 2) + 2.5 * math.ceil(len(solution.data_vars) / _EXACT_COLUMNS)
+    beside = 2 if width >= _WIDTH else 1
+    below = 2.5 * math.ceil(len(series) / beside) + 2.5 * math.ceil(len(solution.data_vars) / _EXACT_COLUMNS)
     figure = new_figure(width, height + below + 1.0, dpi=150)
     grid = figure.add_gridspec(2 if below else 1, 1, height_ratios=[height + 0.4, below] if below else [1.0])
     upper = figure.add_subfigure(grid[0])
@@ -111,7 +112,7 @@ def plot_run(
     if exact is not None:
         _draw_exact_panels(figure.add_subfigure(grid[1]), dataset, exact, solution)
     elif series:
-        _draw_series(figure.add_subfigure(grid[1]), series)
+        _draw_series(figure.add_subfigure(grid[1]), series, beside)
     figure.suptitle(with_stretch(run_title(dataset), stretch), fontsize=12, wrap=True)
     if path is not None:
         save_figure(figure, path)
@@ -169,13 +170,13 @@ def _draw_panels(
     draw_colour_bar(figure, drawn, panels, style, size=10, aspect=30, extend=beyond(limits, values))
 
 
-def _draw_series(figure: Any, panels: "list[Callable[[Axes], None]]") -> None:
-    """Draw each of ``panels`` in axes of its own, two in a row; the first has a row alone if their number is odd."""
-    rows = math.ceil(len(panels) / 2)
-    grid, odd = figure.add_gridspec(rows, 2), len(panels) % 2
+def _draw_series(figure: Any, panels: "list[Callable[[Axes], None]]", beside: int) -> None:
+    """Draw each of ``panels`` in axes of its own, ``beside`` in a row; one that is left over comes first, alone."""
+    rows = math.ceil(len(panels) / beside)
+    grid, odd = figure.add_gridspec(rows, beside), len(panels) % beside
     for number, draw in enumerate(panels):
         place = number + odd
-        draw(figure.add_subplot(grid[0, :] if odd and number == 0 else grid[place // 2, place % 2]))
+        draw(figure.add_subplot(grid[0, :] if odd and number == 0 else grid[place // beside, place % beside]))
 
 
 def _spread(dataset: xr.Dataset) -> list[float]:
