@@ -153,7 +153,7 @@ def test_what_the_server_answers(server: WatchServer) -> None:
     assert (kind, look["file"], look["status"], look["drawn"]) == ("application/json", "tank.nc", "completed", 1)
     kind, picture = get(server, "picture.png?1")
     assert kind == "image/png"
-    assert matplotlib.image.imread(io.BytesIO(picture), format="png").shape[1] == 960
+    assert matplotlib.image.imread(io.BytesIO(picture), format="png").shape[1] == 630
 
 
 @pytest.mark.parametrize(
