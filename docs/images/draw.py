@@ -19,7 +19,7 @@ RUNS = {
     "dam-break.nc": "dam-break",
     "dam-break-mls-linear.nc": "dam-break --interpolator mls-linear --set particle_spacing=0.02",
     "floating-body.nc": "floating-body --set particle_spacing=0.03 --until 2",
-    "solitary-wave-fixed-wall.nc": "solitary-wave-fixed-wall --set particle_spacing=0.03 --until 6",
+    "solitary-wave-fixed-wall.nc": "solitary-wave-fixed-wall --set particle_spacing=0.025 --until 6",
     "dam-break-3d.nc": "dam-break --set dimension=3 --set particle_spacing=0.06 --until 1.1 --output dam-break-3d.nc",
     "poiseuille.nc": "poiseuille --set particle_spacing=0.0625 --until 0.5",
 }
