@@ -85,7 +85,7 @@ def _of_values(dataset: "xr.Dataset") -> str:
     if "run_status" in dataset and int(dataset["run_status"]) not in set(RunStatus):
         return "an unknown run_status"
     for name in ("space", "probe", "gauge", "wall", "part", "body", "status"):
-        if name in dataset and len(set(dataset[name].astype(str).values.tolist())) < dataset.sizes[name]:
+        if name in dataset and len(set(map(str, dataset[name].values.tolist()))) < dataset.sizes[name]:
             return f"two equal names along {name}"
     for name, counted in _INDEXED.items():
         indices = dataset[name].values if name in dataset else np.zeros(0)
