@@ -66,6 +66,8 @@ class Filling:
             point = interpolator.traits.evaluation_point
             bound["EXTRAPOLATED"] = point is EvaluationPoint.EXTRAPOLATED
             bound["DIRECTED"] = point is EvaluationPoint.DIRECTED
+            independent = interpolator.traits.kernel_independent and point is EvaluationPoint.MIRROR
+            bound["BY_KERNEL"] = not independent or velocity_interpolator is not None
             bound["WEIGHTS"], bound["FALLBACK"] = weights_functions(interpolator, kernel, self._dim)
         if velocity_interpolator is not None:
             bound["SEPARATE"] = True

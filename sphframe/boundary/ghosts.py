@@ -38,6 +38,8 @@ from sphframe.interfaces.traits import DRY, OK
 # parts bound by specialise()
 INTERPOLATES = True
 EXTRAPOLATED = DIRECTED = SEPARATE = False
+BY_KERNEL = True
+"""whether the weights depend on the values of the kernel; else these are computed only for a fallback"""
 VELOCITY_WEIGHTS = VELOCITY_FALLBACK = WEIGHTS
 VELOCITIES = True
 """whether the treatment uses the fluid's velocity; else those of EXTRAPOLATED weights are not computed again"""
@@ -157,7 +159,9 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                         n += 1 if r2 < limit else 0  # else it is overwritten: faster than a branch
                     for k in range(n):
                         distances[k] = math.sqrt(distances[k])
-                        values[k] = parameters.kernel_scale * VALUE(distances[k] * per_h)
+                    if BY_KERNEL or FADES:
+                        for k in range(n):
+                            values[k] = parameters.kernel_scale * VALUE(distances[k] * per_h)
                     if n > 0:
                         for d in range(DIM):
                             lift[d] = 0.0
@@ -169,6 +173,9 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                             offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n]
                         )  # fmt: skip
                         if status != OK:
+                            if not (BY_KERNEL or FADES):
+                                for k in range(n):
+                                    values[k] = parameters.kernel_scale * VALUE(distances[k] * per_h)
                             FALLBACK(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
                         elif EXTRAPOLATED:
                             for k in range(n):

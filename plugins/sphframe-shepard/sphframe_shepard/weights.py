@@ -103,9 +103,15 @@ class ImprovedShepard(BoundaryInterpolator):
 
         def weights(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]
             n = distances.shape[0]
-            nearest = distances[0]
-            for j in range(1, n):
+            nearest = other = third = fourth = distances[0]
+            for j in range(0, n - 3, 4):  # four at a time, which do not wait for each other
                 nearest = min(nearest, distances[j])
+                other = min(other, distances[j + 1])
+                third = min(third, distances[j + 2])
+                fourth = min(fourth, distances[j + 3])
+            for j in range(n - n % 4, n):
+                nearest = min(nearest, distances[j])
+            nearest = min(min(nearest, other), min(third, fourth))
             if nearest > 0.0:
                 s = nearest / support
                 largest_exponent = -s * s / max(1.0 - s**attenuation, smallest)
