@@ -1,7 +1,7 @@
 """Boundary: the ghosts of all walls at the present time."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -107,11 +107,9 @@ class Boundary:
         self._corners = Corners(self.groups, drawn, self.wall_body, self.centres, 1.5 * support)
         self._drawn = drawn
         self._drawn_reflection = np.tile(-np.eye(self.dim), (len(self.wall), 1, 1)) if no_slip else drawn.reflection
-        self.position = drawn.position.copy()
-        self.mirror = drawn.mirror.copy()
-        self.foot = drawn.foot.copy()
-        self.normal = drawn.normal.copy()
-        self.reflection = self._drawn_reflection.copy()
+        own: Callable[[Array], Array] = np.copy if self.bodies else np.asarray
+        self.position, self.mirror, self.foot = own(drawn.position), own(drawn.mirror), own(drawn.foot)
+        self.normal, self.reflection = own(drawn.normal), own(self._drawn_reflection)
         self._evaluation_point = evaluation_point
         self.points = self.position if evaluation_point.at_ghost else self.mirror
         self.lifts = self.position - self.points

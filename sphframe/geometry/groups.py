@@ -90,7 +90,7 @@ def _solid_walls(walls: tuple[tuple[int, Wall], ...], fluid: tuple[Shape, ...], 
 def ghosts_of(groups: Sequence[WallGroup], spacing: float, layers: int) -> GhostPoints:
     """Return the ghosts of all ``groups``; see :meth:`WallGroup.ghosts`."""
     parts = [group.ghosts(spacing, layers) for group in groups]
-    return GhostPoints(*map(np.concatenate, zip(*parts, strict=True)))
+    return parts[0] if len(parts) == 1 else GhostPoints(*map(np.concatenate, zip(*parts, strict=True)))
 
 
 def sides_of(groups: Sequence[WallGroup], spacing: float, layers: int) -> tuple[Sides, IntArray] | None:
@@ -114,7 +114,8 @@ def within(
     if sides is not None:
         own, group = sides
         sides = own._replace(ghost_chart=own.ghost_chart[near], kind=own.kind[near]), group
-    return GhostPoints(*(part[near] for part in ghosts)), sides
+    kept = {id(part): part[near] for part in ghosts}  # once what is the same array
+    return GhostPoints(*(kept[id(part)] for part in ghosts)), sides
 
 
 def panels_of(groups: Sequence[WallGroup], spacing: float) -> Panels:
