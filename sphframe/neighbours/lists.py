@@ -254,7 +254,8 @@ class NeighbourLists:
     def around(self, points: Array, rows: Array) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
         """Return lists (k, capacity) of the fluid near any ``points`` (k, dim) and their lengths (k,)."""
         counts = np.zeros(len(points), np.uint32)
-        return self._around(points, rows, np.empty((len(points), 8), np.uint32), counts), counts
+        lists = np.empty((len(points), self.points.shape[1]), np.uint32)  # as long as those near the walls are
+        return self._around(points, rows, lists, counts), counts
 
     def _around(
         self,
