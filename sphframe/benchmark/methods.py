@@ -44,6 +44,7 @@ class MethodCost:
     """
 
     method: str
+    dimension: int
     particles: int
     points: int
     neighbours: float
@@ -91,13 +92,15 @@ def wet_points(simulation: Simulation) -> tuple[int, float]:
     return len(wet), float(np.mean(tree.query_ball_point(wet, simulation.support, return_length=True)))
 
 
-def measure_methods(particles: int, repeats: int, tell: Callable[[str, float | None], None]) -> list[MethodCost]:
-    """Measure all interpolation methods that are installed and load, on the two-dimensional dam break at rest."""
-    label = f"interpolation methods, {particles:,} particles"
+def measure_methods(
+    particles: int, dim: int, repeats: int, tell: Callable[[str, float | None], None]
+) -> list[MethodCost]:
+    """Measure all interpolation methods that are installed and load, on the dam break at rest in ``dim`` dimensions."""
+    label = f"interpolation methods, {dim}-D, {particles:,} particles"
     tell(f"{label}: setting up", None)
     names = [entry.name for entry in check("interpolators") if entry.error is None]
-    state = Simulation(dam_break(particles, 2), threads=1).state()
-    cases = {name: dam_break(particles, 2, interpolator=name) for name in names}
+    state = Simulation(dam_break(particles, dim), threads=1).state()
+    cases = {name: dam_break(particles, dim, interpolator=name) for name in names}
     side = side_by_side(cases, state, repeats, lambda part: tell(f"{label}: measuring", part))
     costs = []
     for name, fill, step in zip(names, side.fill, side.step, strict=True):
@@ -107,7 +110,7 @@ def measure_methods(particles: int, repeats: int, tell: Callable[[str, float | N
         filling, whole = Spread(tuple(map(float, fill))), Spread(tuple(map(float, step)))
         costs.append(
             MethodCost(
-                name, simulation.fluid_count, points, neighbours, filling, whole,
+                name, dim, simulation.fluid_count, points, neighbours, filling, whole,
                 filling.times(1.0 / points), filling.times(fills).over(whole),
             )
         )  # fmt: skip

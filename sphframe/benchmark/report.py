@@ -129,7 +129,13 @@ def bench(
             if state != "developed" or count <= _MOST_DEVELOPED or "developed" in only
             for cost in measure_steps(count, dim, state, counts, repeats, tell)
         ]
-        methods = [cost for count in particles if "methods" in wanted for cost in measure_methods(count, repeats, tell)]
+        methods = [
+            cost
+            for count in particles
+            for dim in (2, 3)
+            if "methods" in wanted
+            for cost in measure_methods(count, dim, repeats, tell)
+        ]
         walls = [
             cost
             for count in particles

@@ -131,14 +131,12 @@ def _single_parts(report: BenchmarkReport) -> Table:
 
 
 def _methods(report: BenchmarkReport) -> Table:
-    table = _table(
-        "Interpolation methods, dam break at rest, one thread, processor time",
-        *("method", "particles", "wet points", "neighbours", "us per point", "filling, ms", "step, ms", "boundary, %"),
-    )
+    names = "method", "flow", "particles", "wet points", "neighbours", "us per point", "filling, ms", "step, ms"
+    table = _table("Interpolation methods, dam break at rest, one thread, processor time", *names, "boundary, %")
     for cost in report.methods:
         table.add_row(
-            cost.method, f"{cost.particles:,}", f"{cost.points:,}", f"{cost.neighbours:.1f}", _text(cost.point, 1e6),
-            _text(cost.fill, 1e3), _text(cost.step, 1e3), _text(cost.share, 100.0),
+            cost.method, f"{cost.dimension}-D", f"{cost.particles:,}", f"{cost.points:,}", f"{cost.neighbours:.1f}",
+            _text(cost.point, 1e6), _text(cost.fill, 1e3), _text(cost.step, 1e3), _text(cost.share, 100.0),
         )  # fmt: skip
     return table
 

@@ -198,9 +198,10 @@ def test_all_installed_methods_that_load_are_measured(monkeypatch: pytest.Monkey
     broken = SimpleNamespace(name="broken", error="it does not load")
     monkeypatch.setattr(methods, "check", lambda kind: [*two, broken])
     told: list[str] = []
-    costs = measure_methods(TINY, 2, lambda text, part: told.append(text))
+    costs = measure_methods(TINY, 2, 2, lambda text, part: told.append(text))
     assert [cost.method for cost in costs] == [entry.name for entry in two]
     for cost in costs:
+        assert cost.dimension == 2
         assert cost.points > 0
         assert 5.0 < cost.neighbours < 40.0
         assert cost.point.median == pytest.approx(cost.fill.median / cost.points)

@@ -41,7 +41,7 @@ def test_every_table_is_printed(monkeypatch: pytest.MonkeyPatch) -> None:
         (1, 2),
         Peak(two, two),
         benchmark([300], [1], ["rest"], repeats=1).steps,
-        [MethodCost("nearest", 300, 10, 20.0, two, two, two.times(1e-6), two)],
+        [MethodCost("nearest", 2, 300, 10, 20.0, two, two, two.times(1e-6), two)],
         [WallCost("mirrors", 300, 50, two, two)],
         [MemoryCost(2, 300, 100, {"lists": 111.0, "system": 222.0}, 333.0, None)],
         StartUp(two, two, 12.5, two, two),
