@@ -106,7 +106,12 @@ def run(
     writer = NetCDFWriter(path, overwrite=overwrite)
     checkpoints = CheckpointWriter(writer, every=checkpoint_every, interval=checkpoint_interval)
     simulation = Simulation(ready, threads=threads)
-    _run(simulation, writer, checkpoints, hooks, progress)
+    try:
+        _run(simulation, writer, checkpoints, hooks, progress)
+    except BaseException as error:
+        if output is None and path.exists():
+            error.add_note("these files are removed when Python ends: copy them, or give output=FILE to keep them")
+        raise
     return Run(ready, path, open_dataset(path))
 
 

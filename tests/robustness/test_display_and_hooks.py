@@ -66,5 +66,15 @@ def test_an_error_of_a_hook_leaves_a_checkpoint(small: ModuleType, tmp_path: Pat
     with pytest.raises(type(error)) as caught:
         run("hydrostatic-tank", output=path, threads=1, hooks=[small.At(7, fail)], **PARAMETERS)
     assert any("sphframe.resume" in note for note in caught.value.__notes__)
+    assert not any("removed when Python ends" in note for note in caught.value.__notes__)
     whole = run("hydrostatic-tank", output=tmp_path / "whole.nc", threads=1, **PARAMETERS)
     small.assert_same_bits(whole.dataset, resume(path, threads=1).dataset)
+
+
+def test_files_that_will_not_stay_are_named_as_such(small: ModuleType) -> None:
+    def interrupt(simulation: Any) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt) as caught:
+        run("hydrostatic-tank", threads=1, hooks=[small.At(3, interrupt)], **PARAMETERS)
+    assert "removed when Python ends: copy them, or give output=FILE" in caught.value.__notes__[-1]
