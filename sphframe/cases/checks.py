@@ -24,6 +24,8 @@ _MOST_SAMPLES = 20_000_000
 _MOST_STEPS = 1e10
 _MOST_CELLS = 1e8
 _MOST_WALL_POINTS = 1e8
+_UNSTABLE = 10.0
+"""time step over the stability limit above which nothing is computed; below it, a warning is given"""
 _SHORTEST_PERIOD = 2.3
 """shortest period over the support of the kernel, with the skin of the neighbour lists"""
 
@@ -231,6 +233,27 @@ def _step_problems(case: Case, scene: Scene) -> Iterator[str]:
             f"{parameter} with until = {case.until:g} s ask for more than {_MOST_STEPS:g} steps;"
             f" choose a time step of {case.until / _MOST_STEPS:.2g} s or more, or a smaller until"
         )
+    if case.time_step is not None and case.time_step > case.until:
+        yield f"time_step = {case.time_step:g} s is above until = {case.until:g} s; give a smaller step, or a later end"
+    excess, advice = _instability(case, scene)
+    if excess > _UNSTABLE:
+        yield advice
+
+
+def _instability(case: Case, scene: Scene) -> tuple[float, str]:
+    """Return the time step that is given over the stability limit, 0 if none is given, and what to do about it."""
+    integrator: Integrator = case.integrator.create("integrators")
+    sound_speed = case.reference_sound_speed(scene.depth)
+    smoothing_length, number, parameter = case.smoothing_length_ratio * case.particle_spacing, 0.0, ""
+    if case.time_step is not None:
+        number, parameter = sound_speed * case.time_step / smoothing_length, f"time_step = {case.time_step:g} s"
+    elif case.courant_number is not None:
+        number, parameter = case.courant_number, f"courant_number = {case.courant_number:g}"
+    limit = integrator.stability_limit * smoothing_length / sound_speed
+    return number / integrator.stability_limit, (
+        f"{parameter} gives c0 dt/h = {number:.3g}, above the stability limit {integrator.stability_limit:g} of"
+        f" {case.integrator.name}; choose a time step below {limit:.3g} s"
+    )
 
 
 def _size_problems(case: Case, scene: Scene) -> Iterator[str]:
@@ -274,15 +297,6 @@ def _reservations(case: Case, scene: Scene) -> Iterator[str]:
             f"sound_speed = {sound_speed:g} m/s is below 10 sqrt(g H) = {10 * wave_speed:.3g} m/s: the density will"
             f" vary by more than one per cent"
         )
-    integrator: Integrator = case.integrator.create("integrators")
-    smoothing_length, number, parameter = case.smoothing_length_ratio * case.particle_spacing, 0.0, ""
-    if case.time_step is not None:
-        number, parameter = sound_speed * case.time_step / smoothing_length, f"time_step = {case.time_step:g} s"
-    elif case.courant_number is not None:
-        number, parameter = case.courant_number, f"courant_number = {case.courant_number:g}"
-    if number > integrator.stability_limit:
-        limit = integrator.stability_limit * smoothing_length / sound_speed
-        yield (
-            f"{parameter} gives c0 dt/h = {number:.3g}, above the stability limit {integrator.stability_limit:g} of"
-            f" {case.integrator.name}; choose a time step below {limit:.3g} s"
-        )
+    excess, advice = _instability(case, scene)
+    if excess > 1.0:
+        yield advice

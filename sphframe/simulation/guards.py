@@ -26,7 +26,8 @@ FASTEST_BODY = 0.5
 """highest speed of a body over the sound speed: above it, the water is no longer weakly compressible"""
 SAMPLED = 1000
 """number of ghosts whose weights are checked at each frame"""
-_STEP_IS_TOO_LONG = "a time step above the stability limit (set a smaller courant_number or time_step)"
+SLOW = 0.1
+"""speed over the sound speed up to which the sound speed is high enough for the flow"""
 
 
 class Tolerated(NamedTuple):
@@ -38,13 +39,15 @@ class Tolerated(NamedTuple):
     """number of particles whose density is out of range"""
 
 
-def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array) -> Tolerated:
+def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array, time_step: float = 0.0) -> Tolerated:
     """Check all particles and ghosts.
 
     Parameters
     ----------
     lower, upper
         (dim,) corners of the domain, m.
+    time_step
+        that led to this state, s.
 
     Raises
     ------
@@ -56,7 +59,8 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array) -> 
     lowest, highest = (factor * case.reference_density for factor in guards.density_band)
     broken, outside, out_of_range, densities_outside = _check_fluid(rows, n, columns, lower, upper, lowest, highest)
 
-    def stop(index: int, what: str, causes: str) -> NoReturn:
+    def stop(index: int, what: str, cause: str, remedy: str = "") -> NoReturn:
+        causes = f"{_likely(system, case, time_step, cause)}{remedy}"
         row = rows[index]
         velocity = ", ".join(f"{u:.4g}" for u in row[columns.velocity])
         raise SimulationError(
@@ -66,36 +70,57 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array) -> 
         )
 
     if broken < n:
-        stop(broken, "has a state that is not finite", f"{_STEP_IS_TOO_LONG}, or a component that returned NaN")
+        stop(broken, "has a state that is not finite", "a component or a hook that wrote NaN")
     if densities_outside:  # a band may be wide and its guard only count, but no volume belongs to such a density
         least = int(np.argmin(rows[:n, columns.density]))
         if rows[least, columns.density] <= 0.0:
-            stop(least, "has a density that is not positive", f"{_STEP_IS_TOO_LONG}, or a sound speed too low")
-    _check_ghosts(system, case)
+            stop(least, "has a density that is not positive", "fluid that is torn apart within a step")
+    _check_ghosts(system, case, time_step)
     if outside < n and guards.domain == "stop":
         stop(
             outside,
             "has left the domain",
-            f"{_STEP_IS_TOO_LONG}, walls that leak or end too low, or a sound speed too low for the flow; to remove and"
-            ' count such particles instead, set guards.domain = "remove"',
+            "walls that leak or end too low",
+            '; to remove and count such particles instead, set guards.domain = "remove"',
         )
     if out_of_range < n and guards.density == "stop":
         stop(
             out_of_range,
             f"has a density outside the band {lowest:g} to {highest:g} kg/m^3",
-            f"{_STEP_IS_TOO_LONG}, a sound speed too low for the flow, or overlapping walls; to go on and count such"
-            ' particles, set guards.density = "count", or widen guards.density_band',
+            "walls that overlap or squeeze the fluid" if _near_wall(system, out_of_range) else "two particles that met",
+            '; to go on and count such particles, set guards.density = "count", or widen guards.density_band',
         )
     if guards.fallbacks == "stop":
         _check_fallbacks(system.boundary, case)
     if system.boundary.bodies:
-        check_bodies(system, lower, upper, case.particle_spacing)
+        check_bodies(system, case, lower, upper, time_step)
     position = rows[:n, columns.position]
     gone = np.any((position < lower) | (position > upper), axis=1) if outside < n else None
     return Tolerated(gone, densities_outside)
 
 
-def check_bodies(system: FluidSystem, lower: Array, upper: Array, spacing: float) -> None:
+def _likely(system: FluidSystem, case: Case, time_step: float, cause: str) -> str:
+    """Return ``cause``, and with it a long time step and a low sound speed where they may be."""
+    parameters = system.parameters
+    number = parameters.sound_speed * time_step / parameters.smoothing_length
+    limit = case.integrator.create("integrators").stability_limit
+    if number > limit:  # high speeds are then its effect
+        return f"a time step above the stability limit (set a smaller courant_number or time_step), or {cause}"
+    velocity = system.rows[: system.fluid_count, system.columns.velocity]
+    fastest = float(np.max(np.abs(velocity), initial=0.0, where=np.isfinite(velocity)))
+    if fastest > SLOW * parameters.sound_speed:
+        return f"{cause}, or a sound speed too low for the flow (raise sound_speed)"
+    return cause
+
+
+def _near_wall(system: FluidSystem, index: int) -> bool:
+    """Whether a wall acts on a particle."""
+    support, place = system.parameters.support, system.rows[index, system.columns.position]
+    ghosts, _ = system.boundary.periods.with_copies(system.boundary.position, support)
+    return bool(np.any(np.linalg.norm(ghosts - place, axis=1) < support))
+
+
+def check_bodies(system: FluidSystem, case: Case, lower: Array, upper: Array, time_step: float = 0.0) -> None:
     """Check that bodies have finite positions and velocities, are not too fast, in the domain and outside of walls.
 
     Raises
@@ -108,24 +133,24 @@ def check_bodies(system: FluidSystem, lower: Array, upper: Array, spacing: float
         own = boundary.body == k
         beside, speeds = boundary.mirror[own], np.linalg.norm(boundary.velocity[own], axis=1)
         velocity = system.bodies.velocity[k]
-        fault = ""
+        fault, cause = "", "a body too light for the flow, hit too hard, or moved by a wrong motion"
         if not np.all(np.isfinite([system.bodies.position[k], velocity])):
             fault = "has a position or a velocity that is not finite"
         elif speeds.max(initial=0.0) > fastest:
             fault = f"moves at {speeds.max():.4g} m/s, above {FASTEST_BODY:g} c0 = {fastest:.4g} m/s"
         elif len(beside) and (np.any(beside.max(axis=0) < lower) or np.any(beside.min(axis=0) > upper)):
-            fault = "has left the domain"
-        elif deepest is not None and deepest.body == k and deepest.depth > 0.5 * spacing:
+            fault, cause = "has left the domain", f"{cause}, or walls that end too low"
+        elif deepest is not None and deepest.body == k and deepest.depth > 0.5 * case.particle_spacing:
             fault = f"has sunk {deepest.depth:.3g} m into wall {deepest.wall!r}, more than half a particle spacing"
         if fault:
             raise SimulationError(
-                f"body {name!r} {fault} (velocity {velocity.tolist()}); likely causes: a body too light for the flow,"
-                f" hit too hard, or moved by a wrong motion, walls that end too low, or {_STEP_IS_TOO_LONG}",
+                f"body {name!r} {fault} (velocity {velocity.tolist()}); likely causes:"
+                f" {_likely(system, case, time_step, cause)}",
                 place=tuple((boundary.centres[k] + system.bodies.position[k, : boundary.dim]).tolist()),
             )
 
 
-def _check_ghosts(system: FluidSystem, case: Case) -> None:
+def _check_ghosts(system: FluidSystem, case: Case, time_step: float) -> None:
     boundary = system.boundary
     g = _first_bad_ghost(
         system.rows, system.fluid_count, system.columns, system.lists.near, boundary.statuses, len(Status)
@@ -134,9 +159,8 @@ def _check_ghosts(system: FluidSystem, case: Case) -> None:
         row, columns = system.rows[system.fluid_count + g], system.columns
         raise SimulationError(
             f"ghost {g} got pressure {row[columns.pressure]:g} Pa, velocity {row[columns.velocity]} m/s and status"
-            f" {boundary.statuses[g]} from {_method(case).label}; likely"
-            f" causes: weights that are not finite (sphframe verify {_method(case).name}), or"
-            f" {_STEP_IS_TOO_LONG}",
+            f" {boundary.statuses[g]} from {_method(case).label}; likely causes: "
+            + _likely(system, case, time_step, f"weights that are not finite (sphframe verify {_method(case).name})"),
             place=tuple(float(x) for x in boundary.position[g]),
         )
 

@@ -133,7 +133,7 @@ class Simulation(Observation):
 
     def _check(self) -> None:
         """Check the new state, remove particles that have left the domain if the case says so, measure the motion."""
-        tolerated = check_state(self.system, self.case, self._lower, self._upper)
+        tolerated = check_state(self.system, self.case, self._lower, self._upper, self.time_step)
         self.densities_outside = tolerated.densities_outside
         if tolerated.outside is not None:
             if np.all(tolerated.outside):

@@ -262,7 +262,7 @@ def test_a_file_without_permission(tmp_path: Path) -> None:
     ("overrides", "message"),
     [
         ({"particle_spacing": 0.1}, "6 particles over the depth"),
-        ({"time_step": 0.01}, r"stability limit 2.33 of symplectic; choose a time step below"),
+        ({"time_step": 0.003}, r"stability limit 2.33 of symplectic; choose a time step below"),
         ({"courant_number": 5.0}, "courant_number = 5 gives"),
         ({"sound_speed": 10.0}, "sound_speed = 10 m/s is below"),
     ],

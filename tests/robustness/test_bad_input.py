@@ -115,6 +115,8 @@ PARAMETERS: list[tuple[str, dict[str, Any], list[str]]] = [
     ("dam-break", {"gravity": -9.81}, ["gravity = -9.81", "greater than or equal to 0"]),
     ("dam-break", {"gravity": 0.0}, ["gravity = 0", "give sound_speed"]),
     ("dam-break", {"sound_speed": 1e300}, ["sound speed 1e+300", "more than 1e+10 steps"]),
+    ("dam-break", {"time_step": 1e9}, ["time_step = 1e+09 s is above until", "stability limit 2.33"]),
+    ("dam-break", {"courant_number": 24.0}, ["courant_number = 24 gives c0 dt/h = 24, above the stability limit"]),
     ("dam-break", {"time_step": 1e-300}, ["time_step = 1e-300", "choose a time step of"]),
     ("dam-break", {"courant_number": 1e-200}, ["courant_number = 1e-200", "choose a time step of"]),
     ("dam-break", {"time_step": "fast"}, ["time_step = 'fast'", "without the unit"]),

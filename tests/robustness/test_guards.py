@@ -51,9 +51,14 @@ def shoot(simulation: Any) -> None:
 
 
 STOPS: list[tuple[str, Callable[[Any], None], dict[str, Any], str]] = [
-    ("NaN", put("density", np.nan), {}, r"particle \d+ has a state that is not finite .*courant_number"),
+    ("NaN", put("density", np.nan), {}, r"state that is not finite .*causes: a component or a hook that wrote NaN \("),
     ("infinity", put("velocity", np.inf), {}, r"not finite|vanish|collapsed"),
-    ("density", put("density", 3000.0), {}, r"outside the band 500 to 1500 kg/m\^3 .*guards.density = \"count\""),
+    (
+        "density",
+        put("density", 3000.0),
+        {},
+        r"outside the band 500 to 1500 kg/m\^3 .*causes: (walls|two).*guards.density = \"count\"",
+    ),
     ("narrow band", put("density", 1100.0), {"guards": {"density_band": (0.95, 1.05)}}, r"band 950 to 1050 kg/m\^3"),
     (
         "counted",
