@@ -77,6 +77,9 @@ class MDBC2022(WallTreatment):
     amplification: float = 10.0
     """largest accepted sum |Phi_j|, the factor by which noise may be amplified"""
 
+    def __post_init__(self) -> None:
+        MDBC(self.amplification)  # refuses what is not possible
+
     traits = WallTraits(exact_constant=True, exact_hydrostatic=True, order=_WALLS)
 
     def interpolator(self, chosen: BoundaryInterpolator) -> BoundaryInterpolator:
