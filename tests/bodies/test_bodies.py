@@ -29,6 +29,13 @@ def test_every_body_keeps_the_promises_of_its_interface() -> None:
             check(body)
 
 
+def test_a_body_that_the_water_moves_says_so() -> None:
+    for body in bodies():
+        pushed = body.motion(0.0, NOTHING, NOTHING, np.full(3, 1e4)).acceleration
+        assert body.needs_load, body
+        assert np.any(pushed != body.motion(0.0, NOTHING, NOTHING, NOTHING).acceleration)
+
+
 @pytest.mark.parametrize(
     ("name", "options", "message"),
     [
