@@ -108,7 +108,7 @@ def verify(
             reports = list(reports_of(names, progress=lambda text: status.update(f"verifying {text}")))
     else:
         reports = list(reports_of(names))
-    if junit is not None and not order:
+    if junit is not None:
         from sphframe.testing.junit import write_junit
 
         write_junit(reports, junit)

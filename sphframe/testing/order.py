@@ -90,11 +90,12 @@ class OrderReport:
     def failures(self) -> list[str]:
         """Return what does not hold of the promise, one line each."""
         found = [] if self.error is None else [self.error]
-        for operator in self.fits:
-            promise: Order | None = getattr(self.promised, operator, None)
-            if promise is not None:
-                found += self._broken(operator, promise)
-        return found
+        return found + [text for texts in self.by_promise().values() for text in texts]
+
+    def by_promise(self) -> dict[str, list[str]]:
+        """Return what does not hold of each promise, by operator: nothing where it is kept."""
+        promises = {operator: getattr(self.promised, operator, None) for operator in self.fits}
+        return {operator: list(self._broken(operator, one)) for operator, one in promises.items() if one is not None}
 
     def _broken(self, operator: str, promise: Order) -> Iterator[str]:
         for (wall, arrangement), fit in self.fits[operator].items():

@@ -6,6 +6,7 @@ import json
 import math
 import sys
 from dataclasses import dataclass
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ import pytest
 from sphframe import FixedGhosts, InputError, Order, Orders, create
 from sphframe.cli.verify import verify as print_verification
 from sphframe.testing import Fit, OrderReport, measure_order
+from sphframe.testing.junit import write_junit
 from sphframe.testing.order_fields import DENSITY, GRAVITY, RADIUS, WALLS, gradient
 from sphframe.testing.order_scenes import Beside
 
@@ -111,6 +113,17 @@ def test_orders_at_a_straight_wall(name, pressure, viscosity, shear):
 def a_report(order, errors=(0.4, 0.2, 0.1), place=("straight", "lattice"), **promise):
     fits = {"pressure": {place: Fit.of((20, 40, 80), errors)}}
     return OrderReport("mine", "wall_treatments", (20, 40, 80), Orders(pressure=order), fits, **promise)
+
+
+def test_promises_are_test_cases_in_junit(tmp_path):
+    broken = OrderReport("lost", "wall_treatments", (20,), Orders(), {}, "cannot be made: no width")
+    write_junit([a_report(Order(1, 0)), a_report(Order(2, 0)), broken], tmp_path / "orders.xml")
+    suites = list(ElementTree.parse(tmp_path / "orders.xml").getroot())
+    assert [(suite.get("tests"), suite.get("failures"), suite.get("errors")) for suite in suites] == [
+        ("1", "0", "0"), ("1", "1", "0"), ("1", "0", "1"),
+    ]  # fmt: skip
+    assert suites[1].find("testcase").get("name") == "order of the pressure"
+    assert suites[1].find(".//failure").get("message").endswith("2 is promised")
 
 
 def test_a_promise_is_an_order_at_the_straight_wall_another_elsewhere_and_an_error():
