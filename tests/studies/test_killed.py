@@ -13,6 +13,7 @@ from types import ModuleType
 import pytest
 
 from sphframe.studies import reproduce
+from sphframe.studies.league import rank
 
 Security = pytest.importorskip("distributed").Security
 dask_config = pytest.importorskip("dask").config
@@ -22,11 +23,7 @@ WAITS = """
 import sys
 from pathlib import Path
 
-sys.path.insert(0, sys.argv[1])
-import tiny
-from sphframe.studies import reproduce
-
-folder, done_before_waiting = Path(sys.argv[2]), int(sys.argv[3])
+folder, done_before_waiting = Path(sys.argv[1]), int(sys.argv[2])
 
 
 def wait_to_be_killed(progress):
@@ -34,10 +31,35 @@ def wait_to_be_killed(progress):
         print("waiting", flush=True)
         sys.stdin.read()
 
+"""
+"""waits once so many tasks are done and another is running; its workers continue"""
+STUDY = """
+sys.path.insert(0, sys.argv[3])
+import tiny
+from sphframe.studies import reproduce
 
 reproduce(tiny.Tiny(), output=folder, workers=2, on_progress=wait_to_be_killed)
 """
-"""carries out the tiny study until so many tasks are done and another is running, and waits; its workers continue"""
+LEAGUE = """
+from sphframe.studies.league import rank
+
+methods, benchmarks = sys.argv[3].split(","), sys.argv[4].split(",")
+rank(output=folder, methods=methods, benchmarks=benchmarks, quick=True, workers=2, on_progress=wait_to_be_killed)
+"""
+
+
+def kill_twice(program: str, folder: Path, *arguments: str) -> dict[str, tuple[int, int]]:
+    """Start ``program`` twice, kill it each time, and return the runs that are finished."""
+    generator = random.Random()
+    for done_before in (1, 0):
+        command = [sys.executable, "-W", "ignore", "-c", WAITS + program, str(folder), str(done_before), *arguments]
+        with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+            assert process.stdout is not None
+            assert process.stdout.readline() == b"waiting\n"
+            time.sleep(generator.uniform(0.0, 0.5))  # the moment of the run at which it is killed
+            os.kill(process.pid, signal.SIGKILL)
+        assert results(folder)
+    return results(folder)
 
 
 def results(folder: Path) -> dict[str, tuple[int, int]]:
@@ -54,24 +76,28 @@ def written(folder: Path) -> dict[str, bytes]:
 @pytest.mark.long
 @pytest.mark.slow
 def test_killed_twice_it_repeats_nothing_and_reports_the_same(tiny: ModuleType, cluster: str, tmp_path: Path) -> None:
-    folder, generator = tmp_path / "killed", random.Random()
-    program = Path(tiny.__file__)
-    for done_before in (1, 0):
-        command = [sys.executable, "-W", "ignore", "-c", WAITS, str(program.parent), str(folder), str(done_before)]
-        with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
-            assert process.stdout is not None
-            assert process.stdout.readline() == b"waiting\n"
-            time.sleep(generator.uniform(0.0, 0.5))  # the moment of the run at which it is killed
-            os.kill(process.pid, signal.SIGKILL)
-        assert not (folder / "report.html").exists()
-        done = results(folder)
-        assert done
+    folder, program = tmp_path / "killed", Path(tiny.__file__)
+    done = kill_twice(STUDY, folder, str(program.parent))
+    assert not (folder / "report.html").exists()
     subprocess.run([sys.executable, "-W", "ignore", str(program), str(folder)], check=True, capture_output=True)
     after = results(folder)
     assert len(after) == 4
     assert {name: after[name] for name in done} == done
     reproduce(tiny.Tiny(), output=tmp_path / "undisturbed", scheduler=cluster)
     assert written(folder) == written(tmp_path / "undisturbed")
+
+
+@pytest.mark.long
+def test_a_league_killed_twice_repeats_nothing_and_finishes_as_the_same(cluster: str, tmp_path: Path) -> None:
+    folder, methods, benchmarks = tmp_path / "killed", ["adami-2012", "improved-shepard"], ["couette", "falling-tank"]
+    done = kill_twice(LEAGUE, folder, ",".join(methods), ",".join(benchmarks))
+    assert not (folder / "index.html").exists()
+    league = rank(output=folder, methods=methods, benchmarks=benchmarks, quick=True, scheduler=cluster)
+    after = results(folder)
+    assert len(after) == 4
+    assert {name: after[name] for name in done} == done
+    other = rank(output=tmp_path / "whole", methods=methods, benchmarks=benchmarks, quick=True, scheduler=cluster)
+    assert league.dataset.drop_vars("cost").identical(other.dataset.drop_vars("cost"))
 
 
 @pytest.mark.long
