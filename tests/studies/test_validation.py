@@ -53,3 +53,17 @@ def test_wall_treatments_are_compared(cluster: str, tmp_path: Path, monkeypatch:
     assert (still["treatment"], moving["treatment"]) == ("fixed-ghosts", "lennard-jones")
     fastest = "fastest particle (% of sqrt(g H))"
     assert float(still[fastest]) < 1.0 < 100.0 < float(moving[fastest])
+
+
+@pytest.mark.long
+def test_findings_have_their_numbers(cluster: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(ROOT)
+    study = importlib.import_module("validation.findings.run").Findings()
+    reproduce(study, output=tmp_path, only=["impact", "cavity"], quick=True, scheduler=cluster)
+    for name, column, factor in (
+        ("impact", "plateau (%), 0.04 m", 3.0),
+        ("cavity", "density (% per second), 0.05 m", 2.0),
+    ):
+        with (tmp_path / "tables" / f"key_figures_{name}.csv").open(newline="") as file:
+            corrected, of_the_wall = csv.DictReader(file)
+        assert factor * float(corrected[column]) < float(of_the_wall[column])
