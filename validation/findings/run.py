@@ -93,7 +93,7 @@ def tasks(finding: Finding, quick: bool) -> list[studies.Task]:
         spacings, methods = spacings[:1], methods[1:2] + [name for name in OF_THE_WALL if name in methods][:1]
     return [
         studies.run_task(
-            f"{name}, {spacing:g}",
+            f"{finding.case}, {name}, {spacing:g}",
             finding.case,
             particle_spacing=spacing,
             **finding.methods[name],
@@ -110,7 +110,7 @@ def chapter(
     """Return a table with a row for each method, and its picture."""
     rows: dict[str, dict[str, studies.Cell]] = {}
     for label, dataset in runs.items():
-        method, spacing = label.split(", ")
+        _, method, spacing = label.split(", ")
         kind = "wall" if method in OF_THE_WALL else "corrected" if method in ASSIGNED else "own"
         row = rows.setdefault(method, {"method": method, "velocity in the continuity": kind})
         row |= {f"{what}, {spacing} m": value for what, value in finding.measure(dataset).items()}
