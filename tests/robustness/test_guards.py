@@ -28,8 +28,9 @@ def put(column: str, value: float) -> Callable[[Any], None]:
 
 def spoil_ghosts(simulation: Any) -> None:
     rows, pressure = simulation.system.rows, simulation.columns.pressure
-    highest = simulation.fluid_count + int(np.argmax(simulation.boundary.position[:, 1]))  # no particle sees it
-    simulation.system.fill_ghosts = lambda: rows.__setitem__((highest, pressure), np.nan)
+    near = simulation.system.lists.near
+    lowest = near[np.argmin(simulation.boundary.position[near, 1])]  # no particle sees it
+    simulation.system.fill_ghosts = lambda: rows.__setitem__((simulation.fluid_count + lowest, pressure), np.nan)
 
 
 def spoil_body(simulation: Any) -> None:
