@@ -30,7 +30,8 @@ from typing import NamedTuple
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
 ROOMS = {
-    "physics": "reference physics kernels simulation/test_shifting.py simulation/test_open_boundaries.py",
+    "physics": "reference physics kernels simulation/test_shifting.py simulation/test_open_boundaries.py"
+    " ../plugins/sphframe-edge-integrals/tests",
     "boundary": "reference boundary physics simulation/test_tension.py simulation/test_simulation.py"
     " simulation/test_thin_walls.py",
     "neighbours": "neighbours reference simulation/test_periodic.py simulation/test_thin_walls.py",
