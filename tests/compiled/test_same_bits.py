@@ -16,7 +16,7 @@ print(hashlib.sha256(state).hexdigest())
 """
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_freshly_compiled_and_cached_loops_have_the_same_bits(tmp_path: Path) -> None:
     environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
     states = [

@@ -145,8 +145,8 @@ def test_two_particles_see_each_other_in_the_same_share():
 
 def test_mirror_points_see_only_their_own_side():
     seen = Seen([plate((0.5, 0), (0.5, 0.5))], halves(0.0))
-    for g, entries in enumerate(seen.lists.points):
-        own = seen.position[entries[: seen.lists.point_counts[g]], 0] < 0.5
+    for g, entries, count in zip(seen.lists.near, seen.lists.points, seen.lists.point_counts, strict=False):
+        own = seen.position[entries[:count], 0] < 0.5
         assert np.all(own == (seen.ghosts.mirror[g, 0] < 0.5))
 
 

@@ -167,6 +167,7 @@ class Annulus(Case):
         )
 
 
+@pytest.mark.long
 def test_added_mass_of_a_cylinder_in_an_annulus() -> None:
     """F = -C rho pi r^2 a with C = (R^2 + r^2)/(R^2 - r^2) on the inner cylinder, 2 R^2/(R^2 - r^2) on the outer one.
 

@@ -88,7 +88,7 @@ def read(name: str, folder: Path) -> Reader:
     return reader
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_tutorial_works_as_written(tmp_path: Path) -> None:
     reader = read("tutorial_plugin.md", tmp_path)
     assert (reader.folder / "dam-break-franke-little.nc").exists()
