@@ -11,7 +11,7 @@ from sphframe import studies
 from sphframe.analysis import summary
 from validation.command import carry_out
 
-ASSIGNED = {
+CORRECTED = {
     "improved-shepard": {"interpolator": "improved-shepard"},
     "adami": {"interpolator": "adami"},
     "mdbc": {"interpolator": "mdbc"},
@@ -58,21 +58,21 @@ FINDINGS = {
         "column-impact",
         "A column of water hits a wall",
         (0.04, 0.02),
-        {**ASSIGNED, **OF_THE_WALL},
+        {**CORRECTED, **OF_THE_WALL},
         errors("plateau", "overshoot"),
     ),
     "dam-break": Finding(
         "dam-break-impact",
         "Pressures of a dam break",
         (0.02, 0.0125),
-        {name: {**ASSIGNED, **OF_THE_WALL}[name] for name in ("adami", "adami-2012", "mdbc", "mdbc-2025")},
+        {name: {**CORRECTED, **OF_THE_WALL}[name] for name in ("adami", "adami-2012", "mdbc", "mdbc-2025")},
         errors("pressure"),
     ),
     "cavity": Finding(
         "lid-driven-cavity",
         "Density in a closed vessel",
         (0.05, 0.025),
-        {**ASSIGNED, **OF_THE_WALL, **PAIRWISE},
+        {**CORRECTED, **OF_THE_WALL, **PAIRWISE},
         growth,
         {"until": 3.0, "frame_interval": 0.25},
     ),
@@ -80,7 +80,7 @@ FINDINGS = {
         "jet-on-plate",
         "Force of a jet on a plate, and the pressure beside it",
         (0.01, 0.00625),
-        {**ASSIGNED, **OF_THE_WALL, **PAIRWISE, **GAMMA},
+        {**CORRECTED, **OF_THE_WALL, **PAIRWISE, **GAMMA},
         errors("force", "pressure"),
     ),
 }
@@ -111,7 +111,7 @@ def chapter(
     rows: dict[str, dict[str, studies.Cell]] = {}
     for label, dataset in runs.items():
         _, method, spacing = label.split(", ")
-        kind = "wall" if method in OF_THE_WALL else "corrected" if method in ASSIGNED else "own"
+        kind = "wall" if method in OF_THE_WALL else "corrected" if method in CORRECTED else "own"
         row = rows.setdefault(method, {"method": method, "velocity in the continuity": kind})
         row |= {f"{what}, {spacing} m": value for what, value in finding.measure(dataset).items()}
     table = studies.Table(f"key_figures_{name}", finding.title, list(rows.values()))
