@@ -2,6 +2,7 @@
 
 import time
 from collections import deque
+from collections.abc import Sequence
 from datetime import timedelta
 
 from rich.console import Console
@@ -118,3 +119,16 @@ class ProgressDisplay:
             densities=simulation.densities_outside,
             statuses=simulation.status_counts(),
         )
+
+
+def with_display(hooks: Sequence[object], *, always: bool) -> list[object]:
+    """Return the hooks of a run, with a display unless they contain one or it would not be live.
+
+    Parameters
+    ----------
+    always
+        whether progress is also shown where it takes lines.
+    """
+    display = ProgressDisplay()
+    shown = (always or display.is_live) and not any(isinstance(hook, ProgressDisplay) for hook in hooks)
+    return [display, *hooks] if shown else [*hooks]

@@ -130,13 +130,12 @@ def _run(
     progress: bool | None,
 ) -> None:
     """Run to the end; an error that ends the run before says in its traceback which files remain."""
-    from sphframe.analysis.progress import ProgressDisplay
+    if progress is not False:
+        from sphframe.analysis.progress import with_display
 
-    display = ProgressDisplay()
-    shown = display.is_live if progress is None else progress
-    displays = [display] if shown and not any(isinstance(hook, ProgressDisplay) for hook in hooks) else []
+        hooks = with_display(hooks, always=bool(progress))
     try:
-        simulation.run(hook_manager([writer, checkpoints, *displays, *hooks]))
+        simulation.run(hook_manager([writer, checkpoints, *hooks]))
     except BaseException as error:
         if writer.run_id and writer.path.exists():
             error.add_note(f"{writer.path} holds the run up to t = {simulation.time:.4g} s")
