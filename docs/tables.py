@@ -157,7 +157,7 @@ def _tables_of_a_case() -> str:
     }
     parts = []
     for name, (model, names, text) in sections.items():
-        about = text or f"{_first_sentence(model)}"
+        about = text or _first_sentence(model)
         end = "" if about.endswith(".") else ":"
         heading = f"[[{name}]]" if name not in ("open_boundaries", "guards") else f"[{name}]"
         parts.append(f"({name})=\n\n### `{heading}`\n\n{about}{end}\n\n{_fields(model, names)}")
@@ -208,7 +208,11 @@ def _components(kind: str) -> str:
     options = []
     for name, component in loaded.items():
         told = meanings(component)
-        hints = {field.name: field.type for field in dataclasses.fields(component)} if _data(component) else {}
+        hints = (
+            {field.name: field.type for field in dataclasses.fields(component)}
+            if dataclasses.is_dataclass(component)
+            else {}
+        )
         for option, parameter in inspect.signature(component).parameters.items() if _takes_options(component) else ():
             default = getattr(parameter.default, "text", parameter.default)
             default = "required" if parameter.default is parameter.empty else _code(_as_toml(default))
@@ -217,10 +221,6 @@ def _components(kind: str) -> str:
             options.append((_code(name), _code(option), default, meaning + (f" {allowed}" if allowed else "")))
     text = _table(("name", "what it is", "package"), rows)
     return f"{text}\n{_table(('name', 'option', 'default', 'meaning'), options)}" if options else text
-
-
-def _data(component: type) -> bool:
-    return dataclasses.is_dataclass(component)
 
 
 def _takes_options(component: type) -> bool:

@@ -18,6 +18,7 @@ from rich.text import Text
 
 import sphframe
 from sphframe.compiled import default_threads
+from sphframe.compiled.cache import TEMPORARY
 from sphframe.registry import KINDS, check
 
 numba: Any = typed_numba  # the types of its settings and its threading layer are unknown
@@ -103,7 +104,7 @@ def _cache() -> tuple[str, str]:
 def _fault(folder: Path, files: list[Path]) -> str:
     """Return why compiled loops are not kept in ``folder``, or which of ``files`` are damaged; or nothing."""
     remedy = "set NUMBA_CACHE_DIR to a folder that can be written to"
-    if "sphframe-cache-" in str(folder):
+    if TEMPORARY in str(folder):
         return f"no folder for compiled loops can be written to, so that each process compiles all of them: {remedy}"
     try:
         with tempfile.TemporaryFile(dir=folder) as file:

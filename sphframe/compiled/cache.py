@@ -12,6 +12,8 @@ from typing import Any
 import numba as typed_numba
 from numba.core import caching, dispatcher
 
+TEMPORARY = "sphframe-cache-"
+"""with which the names of temporary folders begin"""
 numba: Any = typed_numba  # its settings have no types
 typed_caching: Any = caching  # nor has its cache
 
@@ -62,7 +64,7 @@ class TemporaryLocator(typed_caching._SourceFileBackedLocatorMixin, typed_cachin
 @cache
 def temporary_cache() -> str:
     """Return a folder that is removed when Python ends, after a warning."""
-    own = tempfile.mkdtemp(prefix="sphframe-cache-")
+    own = tempfile.mkdtemp(prefix=TEMPORARY)
     atexit.register(shutil.rmtree, own, ignore_errors=True)
     _warn(
         f"neither {Path(__file__).parents[1]} nor the user's cache can be written to, so that each process compiles"

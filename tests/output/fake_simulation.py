@@ -7,6 +7,7 @@ after DELAY s of processor time.
 import os
 import signal
 import sys
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, ClassVar
 
@@ -117,6 +118,15 @@ def play(writer: NetCDFWriter, simulation: FakeSimulation, steps: int) -> None:
         if simulation.step % 10 == 0:
             writer.sphframe_frame_due(simulation=simulation)
         simulation.advance()
+
+
+def write_run(path: Path) -> Path:
+    """Write the file of a run of 31 samples and four frames from start to end, and return its name."""
+    writer, simulation = NetCDFWriter(path), FakeSimulation()
+    writer.sphframe_run_started(simulation=simulation)
+    play(writer, simulation, 31)
+    writer.sphframe_run_finished(simulation=simulation)
+    return path
 
 
 if __name__ == "__main__":

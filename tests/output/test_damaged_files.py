@@ -24,12 +24,7 @@ Damage = Callable[[netCDF4.Dataset], object]
 
 @pytest.fixture(scope="module")
 def sound(fake: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("sound") / "run.nc"
-    writer = NetCDFWriter(path)
-    simulation = fake.FakeSimulation()
-    writer.sphframe_run_started(simulation=simulation)
-    fake.play(writer, simulation, 31)
-    writer.sphframe_run_finished(simulation=simulation)
+    path: Path = fake.write_run(tmp_path_factory.mktemp("sound") / "run.nc")
     return path
 
 

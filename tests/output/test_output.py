@@ -20,12 +20,7 @@ from sphframe.output.schema import VARIABLES
 
 @pytest.fixture
 def written(tmp_path: Path, fake: ModuleType) -> Path:
-    path = tmp_path / "run.nc"
-    writer = NetCDFWriter(path)
-    simulation = fake.FakeSimulation()
-    writer.sphframe_run_started(simulation=simulation)
-    fake.play(writer, simulation, 31)
-    writer.sphframe_run_finished(simulation=simulation)
+    path: Path = fake.write_run(tmp_path / "run.nc")
     return path
 
 
