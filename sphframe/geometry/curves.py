@@ -147,12 +147,12 @@ def area_within(points: Any) -> shapely.Polygon:
     Raises
     ------
     ValueError
-        when corners are repeated, lie on one line, or the outline crosses or touches itself.
+        when corners are repeated or enclose no area, or the outline crosses or touches itself.
     """
     corners = _distinct(points, 3, "joins its last point to its first by itself")
     polygon = shapely.Polygon(corners)
-    if polygon.convex_hull.area <= 1e-12 * np.ptp(corners, axis=0).max() ** 2:
-        raise ValueError("the points lie on one line and enclose no area; give corners that do")
+    if (polygon if polygon.is_valid else polygon.convex_hull).area <= 1e-12 * np.ptp(corners, axis=0).max() ** 2:
+        raise ValueError("the points lie on one line, or run back along it; give corners that enclose an area")
     if not polygon.is_valid:
         place = shapely.is_valid_reason(polygon).partition("[")[2].rstrip("]").replace(" ", ", ")
         raise ValueError(f"the outline crosses or touches itself at ({place}); order the points along it")

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import shapely
 import trimesh
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
@@ -78,6 +78,7 @@ def test_open_shapes_are_lines_that_keep_their_ends() -> None:
 
 
 @given(st.lists(st.tuples(st.floats(-1, 1), st.floats(-1, 1)), min_size=3, max_size=6, unique=True))
+@example([(1.0, 1.0), (0.0, 1.7e-35), (-1.0, 0.0), (0.0, 0.0)])  # valid, but without area
 def test_a_polygon_is_either_valid_or_refused(points: list[tuple[float, float]]) -> None:
     try:
         polygon = Polygon(points=points).geometry(0.1)
