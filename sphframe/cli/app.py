@@ -127,7 +127,13 @@ def _resume(
 def _compare(
     case: Annotated[str, typer.Argument(metavar="CASE", help="a case's name or a TOML case file")],
     interpolators: Annotated[
-        str, typer.Option(metavar="NAME,...", help="methods, such as improved-shepard,mls-linear")
+        str,
+        typer.Option(
+            "--methods",
+            "--interpolators",
+            metavar="NAME,...",
+            help="interpolators or wall treatments, such as improved-shepard,mls-linear,adami-2012",
+        ),
     ] = "improved-shepard",
     preset: Preset = None,
     assignments: Assignments = None,

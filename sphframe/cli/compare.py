@@ -58,7 +58,8 @@ def compare_command(
 
 def _table(dataset: xr.Dataset) -> Table:
     table = Table(box=None, pad_edge=False)
-    for head in ("method", "spacing (m)", "error", "order", "processor time (s)", "fallback (%)", "to the end"):
+    table.add_column("method", no_wrap=True, min_width=max(len(str(name)) for name in dataset["interpolator"].values))
+    for head in ("spacing (m)", "error", "order", "processor time (s)", "fallback (%)", "to the end"):
         table.add_column(head)
     for method in dataset["interpolator"].values:
         for spacing in dataset["particle_spacing"].values:

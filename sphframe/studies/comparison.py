@@ -9,10 +9,12 @@ from typing import Any
 import xarray as xr
 
 from sphframe.analysis import read_reference_series
+from sphframe.analysis.reference import shipped_references
 from sphframe.cases import Case, load_case
 from sphframe.errors import InputError
 from sphframe.output import open_dataset
 from sphframe.output.files import replaced_as_a_whole
+from sphframe.registry import available
 from sphframe.studies.comparison_chapter import comparison_chapter
 from sphframe.studies.comparison_dataset import comparison_dataset
 from sphframe.studies.engine import ProgressListener, carry_out
@@ -57,9 +59,11 @@ def compare(
 ) -> Comparison:
     """Run ``case`` once with each method at each particle spacing, and compare errors, costs and observed orders.
 
-    The error is the RMS difference of the probes' pressures, over rho g H (Pa without gravity), from ``reference`` at
-    ``probe`` if it is given; for ``hydrostatic-tank`` from the state of rest, over the second half of the run;
-    otherwise from the same method at the finest spacing, both as running means over a hundredth of the run.
+    The error is the RMS difference of the pressure at ``probe``, over rho g H (Pa without gravity), from ``reference``
+    if it is given. Otherwise it is the first error of a case with an exact solution
+    (:meth:`sphframe.cases.ExactCase.errors`); for ``hydrostatic-tank`` the RMS difference of the probes' pressures from
+    the state of rest, over the second half of the run; and else from the same method at the finest spacing, both as
+    running means over a hundredth of the run.
     The observed order is the power of the spacing with which the error falls, by least squares over all spacings.
 
     Parameters
@@ -67,13 +71,14 @@ def compare(
     case, preset, parameters
         as for :func:`sphframe.load_case`.
     interpolators
-        names of methods.
+        names of methods: interpolators for the ghosts of the wall treatment of the case, or other wall treatments.
     spacings
         m; by default the spacing of the case.
     output
         folder for ``comparison.nc``, ``report.html``, ``report.md``, ``figures/``, ``tables/`` and ``runs/``.
     reference
-        file of a series of p/(rho g H) over t sqrt(g/H), see :func:`sphframe.analysis.read_reference_series`.
+        file of a series of p/(rho g H) over t sqrt(g/H), see :func:`sphframe.analysis.read_reference_series`. Without
+        it the report shows the series that the case ships, if there is one.
     probe
         name of the probe that is compared with the reference; by default the first.
     repeats
@@ -100,13 +105,14 @@ def compare(
     with contextlib.ExitStack() as stack:
         runs = {key: stack.enter_context(open_dataset(files[task.label])) for key, task in tasks.items()}
         dataset = comparison_dataset({key[:2]: run for key, run in runs.items() if key[2] == 0}, series, probe)
+        drawn = shipped_references(next(iter(runs.values()))) if series is None else [series]
         if repeats > 1:
             dataset = dataset.assign(ensemble_variables(runs))
     with replaced_as_a_whole(output / "comparison.nc") as draft:
         dataset.to_netcdf(draft, engine="netcdf4")
     sizes = dataset["error"].sizes
     title = f"{dataset.attrs['title']}: {sizes['interpolator']} methods, {sizes['particle_spacing']} resolutions"
-    report = write_report(output, title, [comparison_chapter(dataset)], facts=software_of(tasks.values()))
+    report = write_report(output, title, [comparison_chapter(dataset, drawn, probe)], facts=software_of(tasks.values()))
     return Comparison(dataset, report)
 
 
@@ -123,12 +129,16 @@ def _tasks(
         raise InputError(f"give each method once, such as improved-shepard,mls-linear, not {','.join(interpolators)}")
     given = {name: value for name, value in parameters.items() if name != "particle_spacing"}
     chosen = sorted({float(s) for s in spacings} or {load_case(case, preset, given).particle_spacing}, reverse=True)
+    treatments = {entry.name for entry in available("wall_treatments")}
+
+    def run(method: str, spacing: float, seed: int) -> Case:
+        kind = "wall_treatment" if method in treatments else "interpolator"
+        chosen_method = {f"{kind}.name": method, "particle_spacing": spacing}
+        return load_case(case, preset, {**given, **displaced(seed), **chosen_method})
+
     return {
         (method, spacing, seed): RunTask.of(
-            f"{method} {spacing:g}" + (f" {seed}" if seed else ""),
-            load_case(
-                case, preset, {**given, **displaced(seed), "interpolator.name": method, "particle_spacing": spacing}
-            ),
+            f"{method} {spacing:g}" + (f" {seed}" if seed else ""), run(method, spacing, seed)
         )
         for method in interpolators
         for spacing in chosen

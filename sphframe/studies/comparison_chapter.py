@@ -1,6 +1,7 @@
 """Studies: the chapter of a comparison of methods: its table and its figures."""
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,15 +13,23 @@ from sphframe.studies.drawing import colour, picture, thinned, tidy
 from sphframe.studies.ensemble import band_table, difference_table
 
 
-def comparison_chapter(dataset: xr.Dataset) -> Chapter:
-    """Return the tables and figures of a dataset that :func:`sphframe.studies.compare` has made."""
+def comparison_chapter(
+    dataset: xr.Dataset, references: Sequence[xr.DataArray] = (), probe: str | None = None
+) -> Chapter:
+    """Return the tables and figures of a dataset that :func:`sphframe.studies.compare` has made.
+
+    Parameters
+    ----------
+    references
+        series of p/(rho g H) over t sqrt(g/H) that are drawn with the pressures at ``probe``, by default the first.
+    """
     return Chapter(
         "comparison",
         "Comparison",
         [
-            f"The error is the {dataset['error'].attrs['long_name']}"
-            + (" over rho g H." if dataset["error"].attrs["units"] == "1" else ", in Pa.")
-            + " Costs are processor times, which other programs on the machine change little; sphframe bench measures"
+            f"Error: {dataset['error'].attrs['long_name']}"
+            + (". " if dataset["error"].attrs["units"] == "1" else ", in Pa. ")
+            + "Costs are processor times, which other programs on the machine change little; sphframe bench measures"
             " them more precisely."
             + (" The machine was not idle: some runs had to wait for processors." if dataset["waited"].any() else "")
         ],
@@ -28,7 +37,7 @@ def comparison_chapter(dataset: xr.Dataset) -> Chapter:
             Table("comparison", "Error and cost of each method at each resolution", _rows(dataset)),
             *([band_table(dataset), difference_table(dataset)] if "peak" in dataset else []),
         ],
-        [_curves(dataset), *([_histories(dataset)] if dataset.sizes["probe"] else [])],
+        [_curves(dataset), *([_histories(dataset, references, probe)] if dataset.sizes["probe"] else [])],
     )
 
 
@@ -81,8 +90,8 @@ def _curves(dataset: xr.Dataset) -> Picture:
     return picture("comparison", "Error and cost of each method at each resolution.", figure)
 
 
-def _histories(dataset: xr.Dataset) -> Picture:
-    names = [str(p) for p in dataset["probe"].values][:4]
+def _histories(dataset: xr.Dataset, references: Sequence[xr.DataArray], compared: str | None) -> Picture:
+    names = sorted((str(p) for p in dataset["probe"].values), key=lambda name: name != compared)[:4]
     figure = new_figure(10.0, 2.4 * len(names) + 0.8)
     panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
     for axes, name in zip(panels, names, strict=True):
@@ -91,6 +100,11 @@ def _histories(dataset: xr.Dataset) -> Picture:
             axes.plot(
                 *thinned(one["probe_time"], one), color=colour(str(method)), linewidth=0.8, label=plain(str(method))
             )
+        for mark, series in zip("ox+^", references if name == names[0] else (), strict=False):
+            t = series[series.dims[0]].values * dataset.attrs["time_scale"]
+            style: dict[str, Any] = {"color": "black", "markersize": 3.0, "markerfacecolor": "none"}
+            pressure = series.values * dataset.attrs["pressure_scale"]
+            axes.plot(t, pressure, mark, markeredgewidth=0.7, label=plain(str(series.name)), **style)
         tidy(axes, title=plain(name), ylabel="p (Pa)")
     panels[-1].set_xlabel("t (s)")
     panels[0].legend(fontsize=8, frameon=False, ncols=3)

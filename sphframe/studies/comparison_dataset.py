@@ -8,9 +8,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from sphframe.analysis import convergence_order, pressure_scale, rest_pressure, running_mean, summary
+from sphframe.analysis import convergence_order, pressure_scale, summary, time_scale
 from sphframe.arrays import Array
 from sphframe.errors import InputError
+from sphframe.studies.comparison_error import error_measure
 from sphframe.studies.series import fallback_share
 
 _SAMPLES = 2001
@@ -59,15 +60,19 @@ def comparison_dataset(
     def table(value: Callable[[str, float], Any]) -> NDArray[Any]:
         return np.array([[value(method, spacing) for spacing in spacings] for method in methods])
 
-    error = table(lambda m, s: _error(runs[m, s], runs[m, spacings[-1]], reference, compared))
+    measure = error_measure(first, reference, compared)
+    error = table(
+        lambda m, s: (
+            measure.of(runs[m, s], runs[m, spacings[-1]]) if runs[m, s].attrs["completed"] == "yes" else math.nan
+        )
+    )
     numbers = {key: _numbers(run) for key, run in runs.items()}
     times = _common_times(runs.values())
     pressure = table(lambda m, s: _pressures(runs[m, s], times, len(probes)))
-    unit = "1" if pressure_scale(first) else "Pa"
     order = [_order(spacings, row) for row in error]
     return xr.Dataset(
         {
-            "error": (_OVER, error, {"units": unit, "long_name": _meaning_of_error(first, reference)}),
+            "error": (_OVER, error, {"units": measure.units, "long_name": measure.meaning}),
             "order": ("interpolator", order, {"units": "1", "long_name": "observed order of convergence"}),
             **{
                 name: (_OVER, table(lambda m, s, name=name: numbers[m, s][name]), attributes)  # type: ignore[misc]
@@ -87,6 +92,7 @@ def comparison_dataset(
             "title": str(first.attrs["title"]),
             "case_name": str(first.attrs["case_name"]),
             "pressure_scale": pressure_scale(first),
+            "time_scale": time_scale(first),
         },
     )  # fmt: skip
 
@@ -112,39 +118,6 @@ def _pressures(run: xr.Dataset, times: Array, probes: int) -> Array:
         return np.zeros((0, len(times)))
     t, pressures = run["probe_time"].values, run["probe_pressure"].values
     return np.array([np.interp(times, t, pressures[:, k], right=math.nan) for k in range(probes)])
-
-
-def _meaning_of_error(run: xr.Dataset, reference: xr.DataArray | None) -> str:
-    """Return in words what :func:`_error` computes."""
-    if reference is not None:
-        kind = "reference series"
-    elif run.attrs["case_name"] == "hydrostatic-tank":
-        kind = "state of rest"
-    else:
-        kind = "finest spacing of the same method"
-    return f"RMS difference of probe pressures from the {kind}"
-
-
-def _error(run: xr.Dataset, finest: xr.Dataset, reference: xr.DataArray | None, probe: str | None) -> float:
-    """Return the RMS difference of pressures; NaN for a run that was stopped, and where there is nothing to compare."""
-    if run.attrs["completed"] != "yes" or probe is None:
-        return math.nan
-    scale = pressure_scale(run) or 1.0
-    if reference is not None:
-        return float(run.sph.error("probe_pressure", reference, probe=probe)["rms"])
-    t, p = run["probe_time"].values, run["probe_pressure"].values
-    if run.attrs["case_name"] == "hydrostatic-tank":
-        rest = rest_pressure(run, run["probe_y"].values)
-        return float(np.sqrt(np.mean((p[t >= 0.5 * t[-1]] - rest) ** 2)) / scale)
-    if run is finest or finest.attrs["completed"] != "yes":
-        return math.nan
-    other, window = finest["probe_pressure"].values, 0.01 * t[-1]
-    squares = []
-    for k in range(p.shape[1]):
-        one = running_mean(t, p[:, k], window, 0.2 * window)
-        two = running_mean(finest["probe_time"].values, other[:, k], window, 0.2 * window)
-        squares.append(np.mean((one.values - np.interp(one["t"], two["t"], two)) ** 2))
-    return float(np.sqrt(np.mean(squares)) / scale)
 
 
 def _order(spacings: list[float], errors: Array) -> float:

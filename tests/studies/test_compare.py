@@ -1,17 +1,22 @@
 """``compare`` makes one dataset over method and resolution."""
 
+import json
 import subprocess
 import sys
 from pathlib import Path
 
+import matplotlib
 import numpy as np
 import pytest
 import xarray as xr
 from typer.testing import CliRunner, Result
 
+from sphframe.analysis import summary
 from sphframe.cli.app import app
 from sphframe.errors import InputError
+from sphframe.output import open_dataset
 from sphframe.studies import compare
+from sphframe.studies.comparison_chapter import comparison_chapter
 
 TANK = {"tank_length": 0.3, "until": 0.2, "probe_interval": 0.01}
 DAM = {"until": 0.8, "frame_interval": 0.1}
@@ -47,6 +52,21 @@ def test_without_exact_values_the_error_is_from_the_finest_spacing(cluster: str,
     assert np.isfinite(error[:2]).all()
     assert np.isnan(error[2])
     assert "finest spacing" in found.dataset["error"].attrs["long_name"]
+    chapter = comparison_chapter(found.dataset)
+    with matplotlib.rc_context({"svg.fonttype": "none"}):
+        drawn = comparison_chapter(found.dataset, [xr.DataArray([1.0], {"t": [2.0]}, name="Buchner")])
+    assert [b"Buchner" in one.pictures[-1].content for one in (chapter, drawn)] == [False, True]
+
+
+def test_a_case_with_an_exact_solution_gives_the_error_of_methods_of_both_kinds(cluster: str, tmp_path: Path) -> None:
+    methods, few = ["improved-shepard", "adami-2012"], {"kinematic_viscosity": 0.01, "until": 0.01}
+    found = compare("couette", methods, [0.1], output=tmp_path, parameters=few, scheduler=cluster).dataset
+    assert "exact solution: velocity" in found["error"].attrs["long_name"]
+    for path in (tmp_path / "runs").glob("*.nc"):
+        with open_dataset(path) as run:
+            treatment = json.loads(run.attrs["case_parameters"])["wall_treatment"]["name"]
+            name = "improved-shepard" if treatment == "fixed-ghosts" else treatment
+            assert float(found["error"].sel(interpolator=name)[0]) == summary(run)["errors"]["velocity"]
 
 
 def test_with_a_reference_the_error_is_from_the_reference(cluster: str, tmp_path: Path) -> None:
