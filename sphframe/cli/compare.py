@@ -51,6 +51,9 @@ def compare_command(
     screen.print(_table(comparison.dataset))
     if comparison.dataset["waited"].any():
         screen.print("the machine was not idle: runs had to wait; compare processor times, not wall-clock times")
+    screen.print(
+        "cost: processor time per particle and step; the time of a run includes compilation, the cost does not"
+    )
     screen.print(f"error: {comparison.dataset['error'].attrs['long_name']}", markup=False)
     for path in (output / "comparison.nc", comparison.report):
         screen.print(f"wrote {path}", markup=False)
@@ -59,12 +62,12 @@ def compare_command(
 def _table(dataset: xr.Dataset) -> Table:
     table = Table(box=None, pad_edge=False)
     table.add_column("method", no_wrap=True, min_width=max(len(str(name)) for name in dataset["interpolator"].values))
-    for head in ("spacing (m)", "error", "order", "processor time (s)", "fallback (%)", "to the end"):
-        table.add_column(head)
+    for head in ("spacing (m)", "error", "order", "CPU time (s)", "cost (us)", "fallback (%)", "to the end"):
+        table.add_column(head, overflow="fold")
     for method in dataset["interpolator"].values:
         for spacing in dataset["particle_spacing"].values:
             one = dataset.sel(interpolator=method, particle_spacing=spacing)
-            numbers = (float(one[name]) for name in ("error", "order", "processor_time", "fallback"))
+            numbers = (float(one[name]) for name in ("error", "order", "processor_time", "cost", "fallback"))
             done = "yes" if int(one["completed"]) else "no"
             table.add_row(Text(str(method)), f"{spacing:g}", *(shown(number) for number in numbers), done)
     return table

@@ -30,7 +30,8 @@ def comparison_chapter(
             f"Error: {dataset['error'].attrs['long_name']}"
             + (". " if dataset["error"].attrs["units"] == "1" else ", in Pa. ")
             + "Costs are processor times, which other programs on the machine change little; sphframe bench measures"
-            " them more precisely."
+            " them more precisely. That of a run includes the compilation of loops that were not in the cache; that per"
+            " particle and step does not."
             + (" The machine was not idle: some runs had to wait for processors." if dataset["waited"].any() else "")
         ],
         [
@@ -66,7 +67,7 @@ def _rows(dataset: xr.Dataset) -> list[dict[str, Cell]]:
 
 def _curves(dataset: xr.Dataset) -> Picture:
     """Draw error and cost over the particle spacing; of a single spacing, as a bar for each method."""
-    shown = [("error", "error"), ("processor_time", "processor time (s)")]
+    shown = [("error", "error"), ("cost", "processor time per particle and step (us)")]
     shown = [(name, label) for name, label in shown if bool((dataset[name] > 0.0).any())]
     figure, methods = new_figure(5.0 * len(shown), 4.0), [str(method) for method in dataset["interpolator"].values]
     for axes, (name, label) in zip(np.atleast_1d(figure.subplots(1, len(shown))), shown, strict=True):
