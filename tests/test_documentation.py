@@ -102,7 +102,8 @@ def test_commands_in_the_docs_are_understood(line: str) -> None:
         if name == "compare":
             parameters.pop("particle_spacing", None)
             for method in given["interpolators"].replace("my-method", "normalized").split(","):
-                create("interpolators", method)
+                treats = any(entry.name == method for entry in available("wall_treatments"))
+                create("wall_treatments" if treats else "interpolators", method)
         load_case(arguments[0], given["preset"], parameters)
 
 
