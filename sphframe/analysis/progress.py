@@ -4,6 +4,7 @@ import time
 from collections import deque
 from collections.abc import Sequence
 from datetime import timedelta
+from importlib.util import find_spec
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn
@@ -23,8 +24,8 @@ class ProgressDisplay:
     Rate and remaining time are computed from the last ten seconds, so the compilation in the first step and the steps
     before a resumed run do not count. The warnings are those of :func:`sphframe.analysis.concerns`.
 
-    On a terminal and in a notebook it is a bar; elsewhere, such as in a log file, it is a line for every tenth of the
-    run. What cannot be displayed, because a pipe is closed or a disk full, is left out and never ends the run.
+    On a terminal, and in a notebook with ``ipywidgets``, it is a bar; elsewhere, such as in a log file, it is a line
+    for every tenth of the run. What cannot be displayed, because a pipe is closed or a disk full, is left out and never ends the run.
 
     Parameters
     ----------
@@ -33,7 +34,7 @@ class ProgressDisplay:
 
     Examples
     --------
-    ``sphframe.run`` shows it on terminals and in notebooks. To have its lines in a log file too::
+    ``sphframe.run`` shows it where it is a bar. To have its lines in a log file too::
 
         sphframe.run("dam-break", hooks=[sphframe.ProgressDisplay()])
     """
@@ -47,8 +48,10 @@ class ProgressDisplay:
 
     @property
     def is_live(self) -> bool:
-        """Whether it is a bar that moves, on a terminal or in a notebook."""
-        return self._console.is_terminal or self._console.is_jupyter
+        """Whether it is a bar that moves, on a terminal or in a notebook with ``ipywidgets``."""
+        if self._console.is_jupyter:
+            return find_spec("ipywidgets") is not None
+        return self._console.is_terminal
 
     @hookimpl
     def sphframe_run_started(self, simulation: RunView) -> None:

@@ -80,7 +80,7 @@ def run(
         listeners to the run's events, see :mod:`sphframe.hooks`.
     progress
         whether the progress is displayed on the standard error stream (:class:`sphframe.ProgressDisplay`); by default
-        on a terminal and in a notebook.
+        on a terminal, and in a notebook with ``ipywidgets``.
     checkpoint_every
         wall-clock time between checkpoints, s; None for none. See :func:`resume`.
     checkpoint_interval

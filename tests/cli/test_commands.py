@@ -284,6 +284,15 @@ def test_progress_shows_the_present_rate_and_warnings(terminal: bool, monkeypatc
         assert wrong in text
 
 
+def test_without_its_widgets_a_notebook_has_no_bar(monkeypatch: pytest.MonkeyPatch) -> None:
+    display = ProgressDisplay(Console(force_jupyter=True, file=io.StringIO()))
+    live = []
+    for found in (None, "a module"):
+        monkeypatch.setattr("sphframe.analysis.progress.find_spec", lambda _, found=found: found)
+        live.append(display.is_live)
+    assert live == [False, True]
+
+
 def test_doctor_fails_where_nothing_can_run(monkeypatch: pytest.MonkeyPatch) -> None:
     from sphframe.cli import doctor
 
