@@ -25,7 +25,8 @@ class ProgressDisplay:
     before a resumed run do not count. The warnings are those of :func:`sphframe.analysis.concerns`.
 
     On a terminal, and in a notebook with ``ipywidgets``, it is a bar; elsewhere, such as in a log file, it is a line
-    for every tenth of the run. What cannot be displayed, because a pipe is closed or a disk full, is left out and never ends the run.
+    for every tenth of the run. What cannot be displayed, because a pipe is closed or a disk full, is left out and never
+    ends the run.
 
     Parameters
     ----------
