@@ -21,7 +21,14 @@ REPELLING = ("lennard-jones", "monaghan-kajtar-2009")
 """forces of these do not depend on the pressure: they never attract, and repel whatever is within their range"""
 
 
-ON_THREADS = ("fixed-ghosts", "band-2018", "dynamic-2007", "edge-integrals", "lennard-jones", "mirror-images")
+MOST = numba.config.NUMBA_NUM_THREADS
+ON_THREADS = [
+    *(pytest.param(name, "symplectic", MOST) for name in ("fixed-ghosts", "edge-integrals")),
+    *(
+        pytest.param(name, "symplectic", MOST, marks=pytest.mark.long)
+        for name in ("band-2018", "dynamic-2007", "lennard-jones", "mirror-images")
+    ),
+]
 """one treatment for each loop: threads share the work of the loops, and what a treatment gives is a part of them"""
 
 
@@ -32,11 +39,15 @@ def started(treatment, integrator, threads):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("treatment", "integrator"),
-    [*((name, "symplectic") for name in TREATMENTS), ("pair-mirror", "rk4"), ("dynamic-2007", "rk4")],
+    ("treatment", "integrator", "threads"),
+    [
+        *ON_THREADS,
+        *((name, "symplectic", 1) for name in TREATMENTS if name not in ("fixed-ghosts", "edge-integrals")),
+        ("pair-mirror", "rk4", 1),
+        ("dynamic-2007", "rk4", 1),
+    ],
 )
-def test_runs_continue_to_the_bit_on_any_number_of_threads(treatment, integrator):
-    threads = numba.config.NUMBA_NUM_THREADS if treatment in ON_THREADS else 1
+def test_runs_continue_to_the_bit_on_any_number_of_threads(treatment, integrator, threads):
     one, two = started(treatment, integrator, 1), started(treatment, integrator, threads)
     for _ in range(15):
         one.advance()
