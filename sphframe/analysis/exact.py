@@ -2,12 +2,14 @@
 
 import json
 import sys
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 
-from sphframe.analysis.figures import plain, printed_unit, tidy
+from sphframe.analysis.figures import line_style, plain, printed_unit, tidy
+from sphframe.analysis.scales import pressure_scale, time_scale
 from sphframe.cases import Case, ExactCase
 from sphframe.errors import InputError, PluginError
 from sphframe.registry import is_address, load
@@ -57,14 +59,24 @@ def with_exact_solution(dataset: xr.Dataset) -> ExactCase:
     return case
 
 
-def draw_exact(axes: "list[Axes]", dataset: xr.Dataset, case: ExactCase, exact: xr.Dataset) -> None:
-    """Draw each variable of the run as points and its ``exact`` solution as a line, one on each of ``axes``."""
-    measured = case.measured(dataset)
+def draw_exact(
+    axes: "list[Axes]", dataset: xr.Dataset, case: ExactCase, exact: xr.Dataset, references: Sequence[xr.DataArray] = ()
+) -> None:
+    """Draw each variable of the run as points and its ``exact`` solution as a line, one on each of ``axes``.
+
+    A series p/(rho0 g H) over t sqrt(g/H) of ``references`` is drawn with the variable that its name begins with.
+    """
+    measured, label_of_exact = case.measured(dataset), exact.attrs.get("label", "exact")
     for panel, (name, value) in zip(axes, exact.data_vars.items(), strict=False):
         (dim,) = value.dims
         x, order = value[dim].values, np.argsort(value[dim].values, kind="stable")
         panel.plot(x, measured[name].values, ".", markersize=2.5, label="run")
-        panel.plot(x[order], value.values[order], color="black", linewidth=1.0, label="exact")
+        panel.plot(x[order], value.values[order], color="black", linewidth=1.0, label=label_of_exact)
+        for series in (one for one in references if str(one.name).split()[0] == name):
+            t, p = series["t"].values * time_scale(dataset), series.values * pressure_scale(dataset)
+            panel.plot(
+                t, p, "s", color=line_style(1)["color"], markersize=2.0, label=plain(str(series.name).partition(" ")[2])
+            )
         for set_label, array in ((panel.set_xlabel, value[dim]), (panel.set_ylabel, value)):
             label, unit = array.attrs.get("long_name", str(array.name)), array.attrs.get("units", "1")
             set_label(plain(label if unit == "1" else f"{label} ({printed_unit(unit)})"), fontsize=10)

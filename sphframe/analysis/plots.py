@@ -99,7 +99,8 @@ def plot_run(
     rows = math.ceil(len(frames) / columns)
     stretch = stretch_of(view, (width - 1.6) / columns)
     height = rows * _panel_height(view, (width - 1.6) / columns, stretch)
-    shown = shipped_references(dataset) if reference is None else reference
+    given = [reference] if isinstance(reference, xr.DataArray) else reference
+    shown = shipped_references(dataset) if given is None else given
     series = history_panels(dataset, shown) if dataset.sizes["probe_time"] > 1 and exact is None else []
     solution = xr.Dataset() if exact is None else exact.exact(dataset)
     beside = 2 if width >= _WIDTH else 1
@@ -110,7 +111,7 @@ def plot_run(
     panels = upper.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     _draw_panels(upper, panels, dataset, frames, field, view, stretch, surface=surface)
     if exact is not None:
-        _draw_exact_panels(figure.add_subfigure(grid[1]), dataset, exact, solution)
+        _draw_exact_panels(figure.add_subfigure(grid[1]), dataset, exact, solution, shown)
     elif series:
         _draw_series(figure.add_subfigure(grid[1]), series, beside)
     figure.suptitle(with_stretch(run_title(dataset), stretch), fontsize=12, wrap=True)
@@ -119,12 +120,14 @@ def plot_run(
     return figure  # type: ignore[no-any-return]
 
 
-def _draw_exact_panels(figure: Any, dataset: xr.Dataset, case: ExactCase, solution: xr.Dataset) -> None:
-    """Draw the variables of a run beside those of the ``solution``, in rows of panels."""
+def _draw_exact_panels(
+    figure: Any, dataset: xr.Dataset, case: ExactCase, solution: xr.Dataset, references: Sequence[xr.DataArray]
+) -> None:
+    """Draw the variables of a run beside those of the ``solution`` and the references, in rows of panels."""
     count = len(solution.data_vars)
     shape = (math.ceil(count / _EXACT_COLUMNS), min(count, _EXACT_COLUMNS))
     panels = list(figure.subplots(*shape, squeeze=False).flat)
-    draw_exact(panels, dataset, case, solution)
+    draw_exact(panels, dataset, case, solution, references)
     for unused in panels[count:]:
         unused.set_visible(False)
 

@@ -48,6 +48,8 @@ class ExactCase(Case):
     def exact(self, dataset: "xr.Dataset") -> "xr.Dataset":
         """Return the solution: one-dimensional variables with the units and long names of what they are.
 
+        An attribute ``label`` names in pictures what is not exact, such as a published computation.
+
         Parameters
         ----------
         dataset

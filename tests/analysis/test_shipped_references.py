@@ -24,6 +24,21 @@ def test_the_dam_break_ships_what_buchner_measured() -> None:
     assert series.name not in [line.get_label() for axes in without.axes for line in axes.get_lines()]
 
 
+def test_measurements_are_drawn_with_the_variable_of_their_place() -> None:
+    case = pytest.importorskip("sphframe_flows").DamBreakImpact(particle_spacing=0.06, until=0.02)
+    figure = plot_run(run(case, threads=1).dataset)
+    panels = [axes for axes in figure.axes if axes.get_ylabel().startswith("pressure at")]
+    arrivals = []
+    for panel, place in zip(panels, ("P1", None, "P3", "P4"), strict=True):
+        measured = [line for line in panel.get_lines() if "Lobovsky" in str(line.get_label())]
+        assert [line.get_label() for line in measured] == ["measured by Lobovsky (2014)"] * bool(place)
+        for line in measured:
+            hit = np.flatnonzero(np.asarray(line.get_ydata()) > 0.25 * 1000.0 * 9.81 * 0.6)[0]
+            arrivals.append(float(line.get_xdata()[hit]) / case.time_scale)
+    assert arrivals[0] == pytest.approx(2.43, abs=0.05)
+    assert arrivals == sorted(arrivals)
+
+
 def test_a_dam_break_of_another_shape_has_no_measurement() -> None:
     assert not DamBreak(water_length=0.6).references()
     assert DamBreak(water_height=0.3).references()

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from importlib.resources import files
+from pathlib import Path
 from typing import ClassVar, Literal, final
 
 import numpy as np
@@ -15,6 +16,8 @@ from sphframe.geometry import PolygonRegion, PolygonWall
 from sphframe_flows.solutions import sample_times, variable
 
 _HEIGHTS = {"P1": 0.01, "P2": 0.05, "P3": 0.1, "P4": 0.267}
+_MEASURED = ("P1", "P3", "P4")
+_DATA = Path(str(files("sphframe_flows") / "data"))
 _WINDOW = (2.3, 6.6)
 _MEAN_OVER = 0.1
 
@@ -59,6 +62,10 @@ class DamBreakImpact(ExactCase):
         """The time sqrt(H/g), s."""
         return math.sqrt(self.water_height / max(self.gravity, 1e-12))
 
+    def references(self) -> Mapping[str, Path]:
+        """Return what Lobovsky et al. measured with this tank, to be seen beside the run and the computation."""
+        return {f"{name} measured by Lobovsky (2014)": _DATA / f"lobovsky2014_{name}.csv" for name in _MEASURED}
+
     def scene(self) -> Scene:
         """Draw tank and column."""
         high = self.water_height
@@ -73,7 +80,7 @@ class DamBreakImpact(ExactCase):
 
     def exact(self, dataset: xr.Dataset) -> xr.Dataset:
         """Return the published pressure at each place over time; NaN where it is not published."""
-        table = np.loadtxt(str(files("sphframe_flows") / "data" / "decourcy2024.csv"), delimiter=",")
+        table = np.loadtxt(_DATA / "decourcy2024.csv", delimiter=",")
         times = dataset["probe_time"].values / self.time_scale
         scale = self.reference_density * self.gravity * self.water_height
         return xr.Dataset(
@@ -87,6 +94,7 @@ class DamBreakImpact(ExactCase):
                 for name, column in zip(_HEIGHTS, table.T[1:], strict=True)
             },
             coords={"probe_time": sample_times(dataset)},
+            attrs={"label": "computed by De Courcy (2024)"},
         )
 
     def measured(self, dataset: xr.Dataset) -> xr.Dataset:

@@ -37,7 +37,7 @@ def curves(name: str, results: Mapping[str, xr.Dataset]) -> Picture | None:
             else:
                 axes.plot(x, y, ".", color=colours.get(method, "grey"), markersize=1.5, alpha=0.5, label=method)
         exact = first[f"{key} exact"]
-        axes.plot(first[f"{key} at"], exact, color="black", linewidth=1.2, label="exact")
+        axes.plot(first[f"{key} at"], exact, color="black", linewidth=1.2, label=first.attrs.get("label", "exact"))
         low, high = float(np.nanmin(exact)), float(np.nanmax(exact))
         room = 0.5 * (high - low) or abs(high) or 1.0
         axes.set_ylim(low - room, high + room)

@@ -116,7 +116,9 @@ def _kept(dataset: xr.Dataset, case: Any, clock: StepClock) -> xr.Dataset:
     }
     variables: dict[str, Any] = {}
     if isinstance(case, ExactCase) and dataset.sizes["time"] and dataset.sizes["probe_time"]:
-        variables |= _curves(case.exact(dataset), case.measured(dataset))
+        exact = case.exact(dataset)
+        attributes |= exact.attrs
+        variables |= _curves(exact, case.measured(dataset))
     if dataset.sizes["time"]:
         last = dataset.isel(time=-1)
         variables["position"] = (("particle", "space"), last["position"].values.astype(np.float32))
