@@ -1,5 +1,6 @@
 """Analysis: how every figure is made and looks. matplotlib is imported on first use."""
 
+import errno
 import os
 import re
 from typing import TYPE_CHECKING, Any
@@ -81,5 +82,9 @@ def save_figure(figure: "Figure", path: str | os.PathLike[str]) -> None:
     """
     try:
         figure.savefig(path)
-    except (OSError, ValueError) as error:
+    except ValueError as error:  # of matplotlib, about the format
         raise OutputError(f"cannot write the picture {path}: {error}; choose another name, ending in .png") from None
+    except OSError as error:
+        full = error.errno == errno.EMFILE
+        remedy = "allow more open files (ulimit -n)" if full else "check its folder, its permissions and the free space"
+        raise OutputError(f"cannot write the picture {path}: {error}; {remedy}") from None

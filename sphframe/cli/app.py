@@ -84,7 +84,8 @@ def _run(
     until: Annotated[str | None, typer.Option(metavar="SECONDS", help="simulated time at which to stop")] = None,
     threads: Threads = None,
     output: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="by default CASE.nc in this folder, or CASE-METHOD.nc")
+        Path | None,
+        typer.Option("--output", "-o", metavar="FILE", help="by default CASE.nc in this folder, or CASE-METHOD.nc"),
     ] = None,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="replace files of an earlier run")] = False,
     checkpoint_every: CheckpointEvery = 60.0,
@@ -148,9 +149,9 @@ def _compare(
     ] = 1,
     workers: Workers = None,
     scheduler: Scheduler = None,
-    output: Annotated[Path, typer.Option(metavar="DIR", help="folder for the dataset, report and runs")] = Path(
-        "comparison"
-    ),
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="DIR", help="folder for the dataset, report and runs")
+    ] = Path("comparison"),
 ) -> None:
     """Run a case with several methods and resolutions: one dataset, errors, costs, observed orders.
 
@@ -180,7 +181,8 @@ def _reproduce(
         typer.Argument(metavar="STUDY", help="an installed study, such as huang2019; by default the only one"),
     ] = None,
     output: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="folder for the report, figures, tables and runs; required")
+        Path | None,
+        typer.Option("--output", "-o", metavar="DIR", help="folder for the report, figures, tables and runs; required"),
     ] = None,
     only: Annotated[
         list[str] | None,
@@ -204,7 +206,9 @@ def _reproduce(
 
 @app.command("rank")
 def _rank(
-    output: Annotated[Path, typer.Option(metavar="DIR", help="folder for the pages, tables and runs")] = Path("league"),
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="DIR", help="folder for the pages, tables and runs")
+    ] = Path("league"),
     methods: Annotated[
         list[str] | None,
         typer.Option(

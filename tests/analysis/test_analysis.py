@@ -1,6 +1,8 @@
 """Analysis: numbers and pictures from a dataset."""
 
+import errno
 import json
+import os
 import subprocess
 import sys
 import time
@@ -23,6 +25,7 @@ from sphframe.analysis import (
     summary,
 )
 from sphframe.analysis.drawing import beyond, run_title
+from sphframe.analysis.figures import new_figure, save_figure
 from sphframe.analysis.work import work_of_bodies
 from sphframe.errors import InputError, OutputError
 
@@ -206,12 +209,22 @@ def test_plot_with_reference_and_without_probes(tank: xr.Dataset) -> None:
 
 
 def test_picture_that_cannot_be_written(tank: xr.Dataset, tmp_path: Path) -> None:
-    with pytest.raises(OutputError, match="cannot write the picture"):
+    with pytest.raises(OutputError, match="cannot write the picture .*check its folder"):
         plot_run(tank, tmp_path / "nowhere" / "run.png")
     with pytest.raises(OutputError, match=r"\.png"):
         plot_run(tank, tmp_path / "run.xyz")
     with pytest.raises(InputError, match="pressure, speed"):
         plot_run(tank, field="colour")
+
+
+def test_a_picture_beyond_the_limit_of_open_files_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object) -> None:
+        raise OSError(errno.EMFILE, os.strerror(errno.EMFILE))
+
+    figure = new_figure(1.0, 1.0)
+    monkeypatch.setattr(figure, "savefig", refuse)
+    with pytest.raises(OutputError, match="ulimit -n"):
+        save_figure(figure, tmp_path / "run.png")
 
 
 def test_plot_of_probes_with_constant_pressure(tank: xr.Dataset) -> None:
