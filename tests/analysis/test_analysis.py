@@ -209,7 +209,7 @@ def test_plot_with_reference_and_without_probes(tank: xr.Dataset) -> None:
 
 
 def test_picture_that_cannot_be_written(tank: xr.Dataset, tmp_path: Path) -> None:
-    with pytest.raises(OutputError, match="cannot write the picture .*check its folder"):
+    with pytest.raises(OutputError, match=r"cannot write the picture .*check its folder"):
         plot_run(tank, tmp_path / "nowhere" / "run.png")
     with pytest.raises(OutputError, match=r"\.png"):
         plot_run(tank, tmp_path / "run.xyz")

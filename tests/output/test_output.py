@@ -10,6 +10,7 @@ from types import ModuleType
 
 import netCDF4
 import numpy as np
+import psutil
 import pytest
 import xarray as xr
 
@@ -22,6 +23,16 @@ from sphframe.output.schema import VARIABLES
 def written(tmp_path: Path, fake: ModuleType) -> Path:
     path: Path = fake.write_run(tmp_path / "run.nc")
     return path
+
+
+def test_a_dataset_that_is_closed_keeps_no_file_open(written: Path) -> None:
+    def is_open() -> bool:
+        return str(written) in {file.path for file in psutil.Process().open_files()}
+
+    dataset = open_dataset(written)
+    assert is_open()
+    dataset.close()
+    assert not is_open()
 
 
 def test_values_come_back(written: Path) -> None:
