@@ -20,6 +20,7 @@ from sphframe.cli.values import read_assignments
 from sphframe.geometry import SHAPES
 from sphframe.interfaces import EvaluationPoint
 from sphframe.registry import available, create, load
+from sphframe.testing import ghost_responses
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
@@ -183,27 +184,26 @@ def test_the_table_of_promises_is_that_of_the_traits() -> None:
 
 
 def test_the_errors_and_gains_in_the_docs_are_those_of_the_code() -> None:
-    table = rows("methods.md", 3)
+    table = rows("methods.md", 4)
     assert sorted(table) == METHODS
     spacing = 0.01
-    x, y = np.meshgrid(np.arange(0.0, 1.0, spacing) + 0.005, np.arange(0.0, 0.1, spacing) + 0.005)
-    disorder = np.random.default_rng(1).uniform(-0.1 * spacing, 0.1 * spacing, (x.size, 2))
+    x, y = np.meshgrid(np.arange(0.0, 0.795, spacing) + 0.005, np.arange(0.0, 0.075, spacing) + 0.005)
+    disorder = np.random.default_rng(1).uniform(-0.1, 0.1, (x.size, 2)) * spacing
     water = np.column_stack([x.ravel(), y.ravel()]) + disorder
-    mirror = np.column_stack([np.linspace(0.2, 0.8, 601), np.full(601, 0.5 * spacing)])
-    ghost = mirror * [1.0, -1.0]
     for name, row in table.items():
         method = create("interpolators", name)
         where = method.traits.evaluation_point
-        points = ghost if where is EvaluationPoint.GHOST else mirror
-        matrix, _ = operator(
-            method,
-            points,
-            water,
-            np.full(len(water), spacing**2),
-            smoothing_length=1.3 * spacing,
-            lift=ghost - mirror if where is EvaluationPoint.EXTRAPOLATED else None,
-        )
-        height = (points if where is not EvaluationPoint.EXTRAPOLATED else ghost)[:, 1]
-        error = np.mean(height - matrix @ water[:, 1]) / spacing
-        gain = np.mean(np.sqrt(matrix.multiply(matrix).sum(axis=1)))
-        assert [float(cell) for cell in row] == pytest.approx([error, gain], abs=0.006), name
+        found = []
+        for depth in (0.5, 1.5, 2.5):
+            mirror = np.column_stack([np.linspace(0.2, 0.6, 401), np.full(401, depth * spacing)])
+            ghost = mirror * [1.0, -1.0]
+            points, volumes = ghost if where is EvaluationPoint.GHOST else mirror, np.full(len(water), spacing**2)
+            lift = ghost - mirror if where is EvaluationPoint.EXTRAPOLATED else None
+            matrix, _ = operator(method, points, water, volumes, smoothing_length=1.3 * spacing, lift=lift)
+            dense, height = matrix.toarray(), mirror[:, 1] if where is EvaluationPoint.MIRROR else ghost[:, 1]
+            noise, outlier = np.sqrt(np.sum(dense**2, axis=1)), np.abs(dense).max(axis=1)
+            found.append([np.mean((height - dense @ water[:, 1]) / spacing), np.mean(noise), np.mean(outlier)])
+        for cell, values in zip(row, np.array(found).T, strict=True):
+            assert [float(number) for number in cell.split("/")] == pytest.approx(values.tolist(), abs=0.006), name
+        made = [[one.error, one.noise, one.outlier] for one in ghost_responses(method)]
+        np.testing.assert_allclose(made, found, rtol=1e-6, atol=1e-6)

@@ -175,7 +175,16 @@ def method_rows(report: "Report") -> list[list[Text]]:
     verdicts = report.verdicts()
     in_columns = {name for names in _COLUMNS.values() for name in names}
     rest = [verdict for name, verdict in verdicts.items() if name not in in_columns]
-    return [[Text(report.name), *_cells(report, _COLUMNS), _cell(rest) if report.error is None else _cell(["broken"])]]
+    ends = report.responses[:: max(len(report.responses) - 1, 1)]
+    measured = [[one.noise for one in ends], [one.outlier for one in ends]]
+    return [
+        [
+            Text(report.name),
+            *_cells(report, _COLUMNS),
+            _cell(rest) if report.error is None else _cell(["broken"]),
+            *(Text(" / ".join(f"{value:.2f}" for value in values)) for values in measured),
+        ]
+    ]
 
 
 def treatment_rows(report: "Report") -> list[list[Text]]:
@@ -209,10 +218,16 @@ def _cell(verdicts: Sequence[str]) -> Text:
     return Text("")
 
 
-METHOD_HEADINGS = ("method", *_COLUMNS, "all else")
+METHOD_HEADINGS = ("method", *_COLUMNS, "all else", "noise", "one outlier")
 TREATMENT_HEADINGS = ("treatment", *_WALL_COLUMNS, "kernel", "uniform", "hydrostatic", "normal", "shear")
 _TABLES = (
-    ("interpolators", METHOD_HEADINGS, method_rows, ""),
+    (
+        "interpolators",
+        METHOD_HEADINGS,
+        method_rows,
+        "noise, one outlier: parts of the errors of all particles and of a single one that reach ghosts half a spacing"
+        " and 2.5 spacings behind a wall (sphframe.testing.GhostResponse)\n",
+    ),
     (
         "wall_treatments",
         TREATMENT_HEADINGS,

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from sphframe.testing.evaluation import Outcome, evaluate
+    from sphframe.testing.ghost_response import GhostResponse, ghost_responses
     from sphframe.testing.judgement import Judgement, judge
     from sphframe.testing.neighbourhoods import FAMILIES, Cloud, catalogue
     from sphframe.testing.order import Fit, OrderReport, measure_order, verify_order
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "sphframe.testing.neighbourhoods": ["FAMILIES", "Cloud", "catalogue"],
     "sphframe.testing.evaluation": ["Outcome", "evaluate"],
+    "sphframe.testing.ghost_response": ["GhostResponse", "ghost_responses"],
     "sphframe.testing.judgement": ["Judgement", "judge"],
     "sphframe.testing.particle_files": ["Particles", "read_particles"],
     "sphframe.testing.order": ["Fit", "OrderReport", "measure_order", "verify_order"],
@@ -46,6 +48,7 @@ __all__ = [
     "Check",
     "Cloud",
     "Fit",
+    "GhostResponse",
     "Judgement",
     "OrderReport",
     "Outcome",
@@ -56,6 +59,7 @@ __all__ = [
     "checks_of",
     "clouds",
     "evaluate",
+    "ghost_responses",
     "judge",
     "measure_order",
     "parametrize_with_checks",

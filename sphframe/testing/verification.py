@@ -9,8 +9,9 @@ from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from sphframe.errors import InputError, PluginError, SphframeError, UnknownComponentError
-from sphframe.interfaces import WallTreatment
+from sphframe.interfaces import BoundaryInterpolator, WallTreatment
 from sphframe.registry import available, create, find, load
+from sphframe.testing.ghost_response import GhostResponse, ghost_responses
 from sphframe.testing.proof import BrokenPromiseError
 from sphframe.testing.suite import Check, checks_of
 from sphframe.testing.wall_treatments import WallResiduals, wall_residuals
@@ -66,6 +67,8 @@ class Report:
     error: str | None = None
     measured: Mapping[str, WallResiduals] = field(default_factory=dict)
     """errors of a wall treatment at a straight bed, by kernel"""
+    responses: tuple[GhostResponse, ...] = ()
+    """what an interpolation method makes of errors of the particles, in each layer of ghosts"""
 
     @property
     def broken(self) -> bool:
@@ -91,6 +94,7 @@ class Report:
             "error": self.error,
             "properties": self.verdicts(),
             "measured": {kernel: residuals._asdict() for kernel, residuals in self.measured.items()},
+            "responses": [response._asdict() for response in self.responses],
             "checks": [
                 {
                     "check": result.check.name,
@@ -258,7 +262,7 @@ def _report(
         results.append(result)
         if result.failure is not None and check.name in FIRST:
             unusable.add(check.dim)  # all further checks would fail for the same reason
-    return Report(label, kind, distribution, tuple(results), measured=_measured(component))
+    return Report(label, kind, distribution, tuple(results), None, _measured(component), _responses(component))
 
 
 def _measured(component: Any) -> dict[str, WallResiduals]:
@@ -268,6 +272,15 @@ def _measured(component: Any) -> dict[str, WallResiduals]:
         return {kernel: wall_residuals(component, kernel, ratio) for kernel, ratio in MEASURED_WITH.items()}
     except SphframeError:  # the checks have its message
         return {}
+
+
+def _responses(component: Any) -> tuple[GhostResponse, ...]:
+    if not isinstance(component, BoundaryInterpolator):
+        return ()
+    try:
+        return ghost_responses(component)
+    except Exception:  # the checks have its message
+        return ()
 
 
 def _failure(check: Check, component: Any) -> str | None:

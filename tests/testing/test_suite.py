@@ -149,7 +149,9 @@ def test_verification_of_a_method_prints_a_table(capsys):
     assert print_verification(["shepard"]) == 0
     shown = capsys.readouterr().out
     assert "all 1 have their declared traits" in shown
-    assert shown.splitlines()[1].split()[1:] == ["yes", "yes", "yes", "-", "-", "yes", "yes", "yes", "yes", "yes"]
+    cells = shown.splitlines()[1].split()
+    assert cells[1:11] == ["yes", "yes", "yes", "-", "-", "yes", "yes", "yes", "yes", "yes"]
+    assert " ".join(cells[11:]) == "0.69 / 0.62 0.66 / 0.60"
 
 
 def test_a_violated_trait_exits_with_one(install, capsys):
