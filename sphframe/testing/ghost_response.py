@@ -25,7 +25,7 @@ class GhostResponse(NamedTuple):
     noise
         (sum_j Phi_j^2)^(1/2), the factor by which independent errors of the particles are transferred to the ghost.
     outlier
-        the largest |Phi_j|, the part of the error of a single particle that reaches the ghost.
+        the largest absolute weight, the part of the error of a single particle that reaches the ghost.
     fallback
         share of ghosts with the fallback, status TOO_FEW or SINGULAR.
     """
