@@ -246,7 +246,7 @@ def run_title(dataset: xr.Dataset) -> str:
     parts = [
         plain(title[:1].upper() + title[1:]),
         wall_method(case_of(dataset)),
-        f"{dataset.sizes['particle']} particles, spacing {1e3 * dataset.attrs['particle_spacing']:g} mm",
+        f"{dataset.sizes['particle']} particles, spacing {1e3 * dataset.attrs['particle_spacing']:.4g} mm",
     ]
     if int(dataset.attrs["dimension"]) == 3:
         at = f"slice at y = {_middle(dataset):.3g} ± {dataset.attrs['particle_spacing']:.2g} m"

@@ -150,7 +150,7 @@ def _draw_lines(
     before: list[Array] = []
     for k, (name, values) in enumerate(lines):
         style = {"linewidth": 1.1 if k == 0 else 0.9, "zorder": 3 - 0.1 * k, **line_style(start + k)}
-        if any(np.nanmax(np.abs(values - other)) <= 0.02 * np.ptp(other) for other in before):
+        if any(np.nanmax(np.abs(values - other), initial=0.0) <= 0.02 * np.ptp(other) for other in before):
             style |= {"linestyle": (0, (4, 4)), "zorder": 3.5}
         before.append(values)
         axes.plot(t, values, label=plain(name), **(style | (styles or {}).get(name, {})))
@@ -172,7 +172,7 @@ def _draw_lines(
 def _legend_above(axes: "Axes", lines: Sequence[Any]) -> None:
     """Explain ``lines`` above the axes, where the legend hides none of them."""
     place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.1}
-    columns = 3 if axes.get_figure(root=True).get_figwidth() >= 6.0 else 2  # type: ignore[union-attr]
+    columns = (4 if len(lines) > 6 else 3) if axes.get_figure(root=True).get_figwidth() >= 6.0 else 2  # type: ignore[union-attr]
     axes.legend(handles=lines, fontsize=8, frameon=False, ncols=columns, handlelength=1.8, columnspacing=1.2, **place)
 
 

@@ -3,6 +3,7 @@
 from sphframe.cases.case import Case, Guards, Parameter, parameters_of
 from sphframe.cases.checks import CaseWarning, check_case
 from sphframe.cases.custom import Custom
+from sphframe.cases.dam_break_series import WaterColumn
 from sphframe.cases.exact import Benchmark, ExactCase
 from sphframe.cases.load import load_case, read_toml
 from sphframe.cases.open_boundaries import OpenBoundaries
@@ -28,6 +29,7 @@ __all__ = [
     "Scene",
     "Sources",
     "WallPart",
+    "WaterColumn",
     "check_case",
     "downward_gravity",
     "load_case",

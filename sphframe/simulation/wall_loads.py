@@ -83,8 +83,7 @@ class WallLoads:
         loads = np.zeros((2, system.bodies.size))  # the second is of all other ghosts
         centres = system.references()[[wall, wall]]
         system.react(np.where(ghosts, 0, 1), shares, centres, np.zeros((64, *loads.shape)), loads)
-        own: Array = loads[0]
-        return own
+        return np.asarray(loads[0])
 
     def _reference(self, wall: int, default: Array) -> Array:
         """Return the present point, m, to which the moment on a wall refers."""
@@ -94,8 +93,7 @@ class WallLoads:
         point, body = np.array([drawn]), boundary.wall_body[wall]
         if body >= 0:
             point = to_world(point, self._system.bodies.motions[body].position, boundary.centres[body])
-        present: Array = point[0]
-        return present
+        return np.asarray(point[0])
 
 
 def _within(points: Array, part: WallPart) -> BoolArray:

@@ -236,6 +236,14 @@ def test_plot_of_probes_with_constant_pressure(tank: xr.Dataset) -> None:
         assert high > low
 
 
+def test_dry_gauges_are_drawn_beside_others(tank: xr.Dataset) -> None:
+    times = tank["probe_time"].values
+    height = np.column_stack([0.3 + times, np.full_like(times, np.nan), np.full_like(times, np.nan)])
+    gauges = tank.assign(gauge_elevation=(("probe_time", "gauge"), height), gauge_body=("gauge", np.full(3, -1)))
+    gauges = gauges.assign(gauge_x=("gauge", np.full(3, 0.2))).assign_coords(gauge=["A", "B", "C"])
+    assert any(axes.get_ylabel() == "surface elevation (m)" for axes in plot_run(gauges).axes)
+
+
 @pytest.mark.parametrize("name", ["tank", "tank_3d"])
 def test_plot_marks_probes_and_the_free_surface(name: str, request: pytest.FixtureRequest) -> None:
     dataset = request.getfixturevalue(name)

@@ -3,6 +3,7 @@
 from sphframe_flows.accelerated_tank import AcceleratedTank
 from sphframe_flows.channels import Couette, Poiseuille
 from sphframe_flows.cylinder_array import CylinderArray
+from sphframe_flows.dam_break_3d import DamBreak3D
 from sphframe_flows.dam_break_impact import DamBreakImpact
 from sphframe_flows.drum import Drum
 from sphframe_flows.forces import Roll, RotatingFrame, Surge
@@ -30,6 +31,7 @@ __all__ = [
     "ColumnImpact",
     "Couette",
     "CylinderArray",
+    "DamBreak3D",
     "DamBreakImpact",
     "Drum",
     "HydrostaticWedge",
