@@ -20,7 +20,7 @@ RUNS = {
     "dam-break-mls-linear.nc": "dam-break --interpolator mls-linear --set particle_spacing=0.02",
     "floating-body.nc": "floating-body --set particle_spacing=0.03 --until 2",
     "solitary-wave-fixed-wall.nc": "solitary-wave-fixed-wall --set particle_spacing=0.025 --until 6",
-    "dam-break-3d.nc": "dam-break --set dimension=3 --set particle_spacing=0.06 --until 1.1 --output dam-break-3d.nc",
+    "dam-break-3d.nc": "dam-break-3d",
     "poiseuille.nc": "poiseuille --set particle_spacing=0.0625 --until 0.5",
 }
 """the file of each run, and the arguments of ``sphframe run`` that make it"""
@@ -29,7 +29,7 @@ PICTURES: dict[str, tuple[str, dict[str, Any]]] = {
     "gallery_speed": ("dam-break-mls-linear.nc", {"field": "speed", "times": [0.6, 1.5], "surface": True}),
     "gallery_floating_body": ("floating-body.nc", {}),
     "gallery_wave": ("solitary-wave-fixed-wall.nc", {}),
-    "gallery_3d": ("dam-break-3d.nc", {}),
+    "gallery_3d": ("dam-break-3d.nc", {"times": [0.4, 0.6, 0.9, 1.4]}),
     "gallery_exact": ("poiseuille.nc", {"field": "speed"}),
 }
 """the run of each picture and how it is drawn"""

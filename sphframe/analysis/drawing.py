@@ -88,11 +88,11 @@ def draw_particles(axes: "Axes", dataset: xr.Dataset, frame: xr.Dataset, values:
     from matplotlib.collections import EllipseCollection
 
     position, values = shown_particles(dataset, frame, values)
-    spacing = float(dataset.attrs["particle_spacing"])
-    # slightly more than the spacing, so that a lattice at rest has no gaps in the picture
+    # slightly more than the spacing, so that a lattice at rest has no gaps in the picture; layers of a slice coincide
+    size = (1.1 if int(dataset.attrs["dimension"]) == 2 else 1.3) * float(dataset.attrs["particle_spacing"])
     collection = EllipseCollection(
-        [1.1 * spacing],
-        [1.1 * spacing],
+        [size],
+        [size],
         [0.0],
         units="xy",
         offsets=position,
@@ -182,7 +182,7 @@ def view_of(dataset: xr.Dataset, frames: Sequence[xr.Dataset]) -> View:
     walls = [wall for frame in frames for wall in walls_at(dataset, float(frame["time"]))]
     nodes = np.concatenate([outline_nodes(dataset), *(points for points, _ in walls)])
     bodies = [points for points, wall in walls if dataset["wall_body"].values[wall] >= 0]
-    positions = np.concatenate([frame["position"].values for frame in frames])
+    positions = np.concatenate([shown_particles(dataset, frame, frame["density"].values)[0] for frame in frames])
     x0, x1 = nodes[:, 0].min(), np.fmax(nodes[:, 0].max(), np.nanmax(positions[:, 0]))
     y0 = nodes[:, -1].min()
     # a few drops of spray do not determine the height
@@ -241,19 +241,19 @@ def time_label(dataset: xr.Dataset, time: float) -> str:
 
 
 def run_title(dataset: xr.Dataset) -> str:
-    """One line with case, method and resolution, and with the status of a run that is not complete."""
+    """Case, method, resolution and the status of a run that is not complete; in 3-D the slice, in a second line."""
     title = str(dataset.attrs["title"])
     parts = [
         plain(title[:1].upper() + title[1:]),
         wall_method(case_of(dataset)),
         f"{dataset.sizes['particle']} particles, spacing {1e3 * dataset.attrs['particle_spacing']:.4g} mm",
     ]
+    second = []
     if int(dataset.attrs["dimension"]) == 3:
-        at = f"slice at y = {_middle(dataset):.3g} ± {dataset.attrs['particle_spacing']:.2g} m"
-        parts.append(at.replace(" ", "\N{NO-BREAK SPACE}"))  # a title that is wrapped does not break here
+        second.append(f"slice at y = {_middle(dataset):.3g} ± {dataset.attrs['particle_spacing']:.2g} m")
     if dataset.attrs["completed"] != "yes":
-        parts.append(str(dataset.attrs["run_status"]))
-    return "  ·  ".join(parts)
+        (second or parts).append(str(dataset.attrs["run_status"]))
+    return "\n".join("  ·  ".join(line) for line in (parts, second) if line)
 
 
 def draw_colour_bar(
