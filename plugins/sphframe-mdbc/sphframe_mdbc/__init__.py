@@ -88,15 +88,16 @@ class MDBC(BoundaryInterpolator):
             matrix = local_array(entries)
             for k in range(entries):
                 matrix[k] = 0.0
+            for j in range(n):  # a loop of its own, which the compiler vectorises
+                out[j] = gradient_scale * kernel_gradient(distances[j] * per_h)
             for j in range(n):
-                slope = gradient_scale * kernel_gradient(distances[j] * per_h)
-                out[j] = slope
                 for a in range(dim):
                     basis[a] = offsets[j, a] * per_h
                 for a in range(terms):
+                    scaled = volumes[j] * basis[a]
                     for b in range(dim):
-                        matrix[a * terms + b] += volumes[j] * basis[a] * slope * basis[b]
-                    matrix[a * terms + dim] += volumes[j] * basis[a] * kernel_values[j]
+                        matrix[a * terms + b] += scaled * out[j] * basis[b]
+                    matrix[a * terms + dim] += scaled * kernel_values[j]
             solution = local_array(terms)
             scale = 0.0
             for a in range(dim):
