@@ -25,8 +25,6 @@ from sphframe.interfaces.traits import DRY, OK
 from sphframe.kernels import compiled_kernel
 from sphframe.registry import create
 
-Integers = IntArray
-
 
 @dataclass(frozen=True)
 class ParticleCloud:
@@ -59,7 +57,7 @@ def operator(
     smoothing_length: float,
     kernel: str | Kernel = "gaussian",
     lift: ArrayLike | None = None,
-) -> tuple[csr_array, Integers]:
+) -> tuple[csr_array, IntArray]:
     """Return the matrix Phi with value(points) = Phi @ f, and the status of each point.
 
     Parameters
@@ -86,7 +84,7 @@ def operator(
         (m, n), dimensionless, with an entry for each particle nearer than the cut-off, zeros included;
         rows of points where the method returned TOO_FEW or SINGULAR hold the weights of its fallback, rows of dry
         points are empty.
-    statuses : Integers
+    statuses : IntArray
         (m,), see :class:`sphframe.Status`.
 
     Raises
@@ -119,11 +117,11 @@ def operator_of(
     points: Array,
     positions: Array,
     volumes: Array,
-    near: tuple[Integers, Integers],
+    near: tuple[IntArray, IntArray],
     lifts: Array,
     smoothing_length: float,
     kernel: Kernel,
-) -> tuple[csr_array, Integers]:
+) -> tuple[csr_array, IntArray]:
     """Return what :func:`operator` does, for checked arguments, where the particles ``near`` each point are known.
 
     These are all that are nearer than the cut-off, as row starts and columns of a CSR matrix.
@@ -216,7 +214,7 @@ def _fill_rows(  # type: ignore[no-untyped-def]
             entries[first + e] = out[e]
 
 
-def _search(points: Array, positions: Array, support: float) -> tuple[Integers, Integers]:
+def _search(points: Array, positions: Array, support: float) -> tuple[IntArray, IntArray]:
     """Return the particles nearer than ``support`` to each point as row starts and columns of a CSR matrix."""
     found = cKDTree(positions).query_ball_point(points, support, return_sorted=True)
     counts = np.array([len(row) for row in found], dtype=np.int64)
@@ -226,7 +224,7 @@ def _search(points: Array, positions: Array, support: float) -> tuple[Integers, 
     return row_starts(rows[inside], len(points)), members[inside]
 
 
-def row_starts(rows: Integers, count: int) -> Integers:
+def row_starts(rows: IntArray, count: int) -> IntArray:
     """Return where each of ``count`` rows starts, from the ascending row of each entry."""
     starts = np.zeros(count + 1, dtype=np.int64)
     np.cumsum(np.bincount(rows, minlength=count), out=starts[1:])

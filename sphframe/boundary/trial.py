@@ -1,7 +1,7 @@
 """Boundary: weights functions are tried in plain Python before they are compiled, where a mistake can be named."""
 
-import operator
 from collections.abc import Iterator
+from numbers import Integral
 from typing import Any
 
 import numpy as np
@@ -69,7 +69,7 @@ def try_weights(method: BoundaryInterpolator, kernel: CompiledKernel, dim: int, 
             except Exception as error:
                 raised = raised or f"{where} raise {type(error).__name__}: {error}"
                 break
-            if not _is_whole(status):
+            if not isinstance(status, Integral):
                 hint = "end every branch with 'return OK', or TOO_FEW or SINGULAR" if status is None else "return OK"
                 raise BrokenPluginError(f"{where} return {status!r:.80}; expected a status: {hint}")
         if which == 0 and raised:
@@ -96,11 +96,3 @@ def _neighbourhoods(
         near = distances[order[:count]]
         values = np.array([scale * kernel.value(r / ratio * CLOSER) for r in near.tolist()])
         yield offsets, near, values, np.ones(count), support, lift.copy(), np.full(count, np.nan)
-
-
-def _is_whole(status: object) -> bool:
-    try:
-        operator.index(status)  # type: ignore[arg-type]
-    except TypeError:
-        return False
-    return True

@@ -13,7 +13,6 @@ from sphframe.geometry.frames import (
 )
 from sphframe.geometry.ghosts import GhostPoints, Panels, PlaneWalls, Sides, WallGroup
 from sphframe.geometry.groups import ghosts_of, panels_of, row_of, sides_of, wall_groups, within
-from sphframe.geometry.lattice import Fill
 from sphframe.geometry.regions import (
     BoxRegion,
     CircleRegion,
@@ -22,6 +21,7 @@ from sphframe.geometry.regions import (
     DifferenceRegion,
     EllipseRegion,
     MeshRegion,
+    PlaneRegion,
     PointsRegion,
     PolygonRegion,
     Region,
@@ -39,6 +39,7 @@ from sphframe.geometry.shapes import (
     Difference,
     Ellipse,
     Mesh,
+    Plane,
     PointsFile,
     Polygon,
     Polyline,
@@ -67,11 +68,12 @@ __all__ = [
     "DifferenceRegion",
     "Ellipse",
     "EllipseRegion",
-    "Fill",
     "GhostPoints",
     "Mesh",
     "MeshRegion",
     "Panels",
+    "Plane",
+    "PlaneRegion",
     "PlaneWalls",
     "PointsFile",
     "PointsRegion",

@@ -5,7 +5,7 @@ from typing import final
 import numpy as np
 
 from sphframe.arrays import Array, BoolArray
-from sphframe.geometry.ghosts import NONE, End, GhostPoints, Panels, WallGroup
+from sphframe.geometry.ghosts import GhostPoints, Panels, WallGroup
 from sphframe.geometry.shapes import grid
 from sphframe.geometry.walls import BoxWall
 
@@ -43,8 +43,7 @@ class BoxWalls(WallGroup):
         reflection = np.where(crossed[:, :, None], -1.0, 1.0) * np.eye(3)
         foot = np.clip(position, self._lower, self._upper)
         offset = position - foot
-        nothing = np.zeros_like(position)
-        return GhostPoints(
+        return GhostPoints.without_corners(
             position,
             2.0 * foot - position,
             foot,
@@ -52,9 +51,6 @@ class BoxWalls(WallGroup):
             reflection,
             volume[ghost],
             np.full(len(position), self._index),
-            np.full(len(position), NONE),
-            nothing,
-            nothing,
         )
 
     def panels(self, spacing: float) -> Panels:
@@ -84,10 +80,3 @@ class BoxWalls(WallGroup):
         """Return which of ``points`` (n, 3), m, lie behind a closed face, and their nearest points on the box."""
         foot = np.clip(points, self._lower, self._upper)
         return np.any(foot != points, axis=1), foot
-
-    def ends(self) -> list[End]:
-        """Return nothing: forces in the corners of a box belong to the box."""
-        return []
-
-    def thin_place(self, least: float) -> None:
-        """Return None: a box is a container, and what is behind it has no other side."""

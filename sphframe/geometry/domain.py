@@ -276,28 +276,19 @@ def domain_of(
 
     Each of the ``sides`` (k, 2, 2) is an edge in both directions.
     """
-    starts, ends, before, after = [], [], [], []
-    count = 0
-    for polygon in shapely.get_parts(region):
-        for ring in shapely.get_rings(shapely.orient_polygons(polygon)):
-            points = shapely.get_coordinates(ring)
-            number = len(points) - 1
-            starts.append(points[:-1])
-            ends.append(points[1:])
-            places = count + np.arange(number)
-            before.append(np.roll(places, 1))
-            after.append(np.roll(places, -1))
-            count += number
-    start, end = np.vstack([*starts, sides[:, 0], sides[:, 1]]), np.vstack([*ends, sides[:, 1], sides[:, 0]])
-    count = len(start)
+    rings = [
+        shapely.get_coordinates(ring)
+        for polygon in shapely.get_parts(region)
+        for ring in shapely.get_rings(shapely.orient_polygons(polygon))
+    ]
+    start = np.vstack([*(points[:-1] for points in rings), sides[:, 0], sides[:, 1]])
+    end = np.vstack([*(points[1:] for points in rings), sides[:, 1], sides[:, 0]])
     tree = shapely.STRtree(lines)
     edge, line = tree.query_nearest(shapely.points(0.5 * (start + end)), max_distance=closest)
-    wall = np.full(count, len(owners))
+    wall = np.full(len(start), len(owners))
     np.minimum.at(wall, edge, owners[line])
     wall[wall == len(owners)] = OPEN
-    if len(sides):
-        return Domain(region, start, end, wall, *_neighbours(start, end))
-    return Domain(region, start, end, wall, np.concatenate(before), np.concatenate(after))
+    return Domain(region, start, end, wall, *_neighbours(start, end))
 
 
 def _neighbours(start: Array, end: Array) -> tuple[IntArray, IntArray]:

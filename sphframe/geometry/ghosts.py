@@ -66,6 +66,12 @@ class GhostPoints(NamedTuple):
     other_normal: Array
     other_dual: Array
 
+    @classmethod
+    def without_corners(cls, *parts: Any) -> "GhostPoints":
+        """Return ghosts of which each belongs to one wall, from all fields but the last three."""
+        nothing = np.zeros_like(parts[0])
+        return cls._make([*parts, np.full(len(nothing), NONE), nothing, nothing])
+
 
 class Sides(NamedTuple):
     """Sides of plane walls, which hide what is behind them (:mod:`sphframe.geometry.charts`).
@@ -130,13 +136,13 @@ class WallGroup(ABC):
     def behind(self, points: Array) -> BoolArray:
         """Return whether each of ``points`` (n, dim), m, lies behind one of the walls, and not on it."""
 
-    @abstractmethod
     def ends(self) -> list[End]:
-        """Return the ends of walls from which the boundary of the domain continues in the open."""
+        """Return the ends of walls from which the boundary of the domain continues in the open; none in 3-D."""
+        return []
 
-    @abstractmethod
     def thin_place(self, least: float) -> tuple[float, ...] | None:
         """Return a point, m, where a solid thinner than ``least`` (m) cannot hold fluid; None if there is none."""
+        return None
 
 
 @final
@@ -150,7 +156,7 @@ class NoWalls(WallGroup):
         """Return no ghosts."""
         points, none = self._points, self._none
         reflection = np.empty((0, points.shape[1], points.shape[1]))
-        return GhostPoints(points, points, points, points, reflection, np.empty(0), none, none, points, points)
+        return GhostPoints.without_corners(points, points, points, points, reflection, np.empty(0), none)
 
     def panels(self, spacing: float) -> Panels:
         """Return no panels."""
@@ -159,13 +165,6 @@ class NoWalls(WallGroup):
     def behind(self, points: Array) -> BoolArray:
         """Return that none of ``points`` (n, dim) lies behind a wall."""
         return np.zeros(len(points), dtype=np.bool_)
-
-    def ends(self) -> list[End]:
-        """Return nothing."""
-        return []
-
-    def thin_place(self, least: float) -> None:
-        """Return None."""
 
 
 @final

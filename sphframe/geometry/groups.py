@@ -10,7 +10,7 @@ import shapely
 from sphframe.arrays import IntArray
 from sphframe.errors import InputError
 from sphframe.geometry.box_walls import BoxWalls
-from sphframe.geometry.ghosts import NONE, GhostPoints, NoWalls, Panels, PlaneWalls, Sides, WallGroup
+from sphframe.geometry.ghosts import GhostPoints, NoWalls, Panels, PlaneWalls, Sides, WallGroup
 from sphframe.geometry.shapes import CHORD, Shape
 from sphframe.geometry.solid_walls import SolidWalls
 from sphframe.geometry.walls import BoxWall, Wall
@@ -130,8 +130,4 @@ def row_of(groups: Sequence[WallGroup], distance: float, spacing: float) -> Ghos
     size = np.linalg.norm(area, axis=1)
     normal = area / size[:, None]
     reflection = np.eye(centre.shape[1]) - 2.0 * normal[:, :, None] * normal[:, None, :]
-    nothing = np.zeros_like(centre)
-    none = np.full(len(wall), NONE)
-    return GhostPoints(
-        centre, centre, centre, normal, reflection, size * spacing, wall, none, nothing, nothing
-    )  # fmt: skip
+    return GhostPoints.without_corners(centre, centre, centre, normal, reflection, size * spacing, wall)

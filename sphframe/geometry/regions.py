@@ -12,6 +12,7 @@ from sphframe.geometry.shapes import (
     Difference,
     Ellipse,
     Mesh,
+    Plane,
     PointsFile,
     Polygon,
     Sphere,
@@ -87,6 +88,10 @@ class CylinderRegion(Cylinder, InitialState):
     """A circular cylinder full of fluid (3-D)."""
 
 
+class PlaneRegion(Plane, InitialState):
+    """The part of a box behind a plane, full of fluid (3-D)."""
+
+
 class MeshRegion(Mesh, InitialState):
     """The inside of a triangle mesh, full of fluid (3-D)."""
 
@@ -102,6 +107,7 @@ Region = Annotated[
     | DifferenceRegion
     | SphereRegion
     | CylinderRegion
+    | PlaneRegion
     | MeshRegion,
     Field(discriminator="shape"),
 ]

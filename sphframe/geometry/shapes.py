@@ -428,6 +428,47 @@ class Cylinder(Solid):
         return 10.0 * self.radius
 
 
+class Plane(Solid):
+    """The part of the box from ``lower`` to ``upper`` behind a plane through ``point`` across ``normal`` (3-D).
+
+    The solid lies on the side from which ``normal`` points away. A wall on it is plane where the plane is in the box;
+    a box that reaches beyond the other walls leaves nothing but the plane.
+
+    Examples
+    --------
+    >>> bed = Plane(point=(1, 0, 0), normal=(-1, 0, 1), lower=(0, 0, -1), upper=(2, 1, 1))
+    >>> round(float(bed.geometry(0.01).volume), 9)
+    2.0
+    """
+
+    shape: Literal["plane"] = "plane"
+    point: Point3
+    """a point of the plane, m"""
+    normal: Point3
+    """direction across the plane, out of the solid, of any length"""
+    lower: Point3
+    """corner of the box with the smallest coordinates, m"""
+    upper: Point3
+    """corner of the box with the largest coordinates, m"""
+
+    def geometry(self, tolerance: float) -> Any:  # noqa: D102
+        check_box(self.lower, self.upper)
+        corners = grid(list(np.array([self.lower, self.upper]).T))
+        height = np.subtract(corners, self.point) @ self.normal
+        if not height.min() < 0.0 < height.max():
+            raise ValueError(
+                f"the plane through {self.point} across {self.normal} does not cut the box from {self.lower} to"
+                f" {self.upper}; give a point in the box, and a normal that is not zero"
+            )
+        from trimesh.convex import convex_hull
+
+        edges = (corners[:, None] != corners).sum(axis=2) == 1
+        i, j = np.nonzero(edges & (height[:, None] < 0.0) & (height > 0.0))
+        share = height[i] / (height[i] - height[j])
+        cut = corners[i] + share[:, None] * (corners[j] - corners[i])
+        return convex_hull(np.vstack([corners[height <= 0.0], cut]))
+
+
 class Mesh(Solid):
     """The inside of a closed triangle mesh in a file (STL, OBJ or PLY), times ``scale`` and then moved by ``offset``.
 
@@ -473,6 +514,7 @@ AnyShape = Annotated[
     | Difference
     | Sphere
     | Cylinder
+    | Plane
     | Mesh,
     Field(discriminator="shape"),
 ]

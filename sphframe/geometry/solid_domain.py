@@ -22,7 +22,7 @@ from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.errors import InputError
 from sphframe.geometry.domain import OPEN
 from sphframe.geometry.fill import fill
-from sphframe.geometry.wall_solids import WallSolid
+from sphframe.geometry.wall_solids import WallSolid, box_solid
 from sphframe.geometry.walls import Wall
 
 _ACROSS = 0.25
@@ -187,14 +187,14 @@ def solid_domain(walls: Mapping[int, Wall], fluid: Sequence[Any], spacing: float
         first = manifold3d.Manifold.reserve_ids(2)
         owners[first] = index
         bodies.append(_Body(_manifold(shape, first), wall.name, holds))
-    frame = _manifold(_frame(lower - 2.0 * far, upper + 2.0 * far))
+    frame = _manifold(box_solid(lower - 2.0 * far, upper + 2.0 * far, (), 0.0))
     cells = [
         (holds, _reached(frame, bodies, holds, positions))
         for holds in np.unique([[body.holds[k] for body in bodies] for k in range(len(positions))], axis=0)
     ]
     _check_apart(cells, bodies, spacing)
     wet = manifold3d.Manifold.batch_boolean([cell for _, cell in cells], manifold3d.OpType.Add)
-    around = _manifold(_frame(lower - 3.0 * far, upper + 3.0 * far))
+    around = _manifold(box_solid(lower - 3.0 * far, upper + 3.0 * far, (), 0.0))
     surface, ids = _surface(wet)
     return SolidDomain(surface, np.array([owners.get(k, OPEN) for k in ids.tolist()]), _surface(around - wet)[0])
 
@@ -276,12 +276,6 @@ def _check_apart(cells: Sequence[tuple[BoolArray, Any]], bodies: Sequence[_Body]
 def place_of(point: Array) -> str:
     """Return the coordinates of a ``point`` (3,) as text."""
     return "(" + ", ".join(f"{x:.6g}" for x in point) + ")"
-
-
-def _frame(lower: Array, upper: Array) -> WallSolid:
-    from sphframe.geometry.wall_solids import box_solid
-
-    return box_solid(lower.tolist(), upper.tolist(), (), 0.0)
 
 
 def _manifold(shape: WallSolid, first: int | None = None) -> Any:

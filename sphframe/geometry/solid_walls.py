@@ -15,7 +15,7 @@ from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.geometry.columns import straight_faces
 from sphframe.geometry.domain import OPEN
 from sphframe.geometry.fill import fill_mesh
-from sphframe.geometry.ghosts import End, GhostPoints, Panels, WallGroup
+from sphframe.geometry.ghosts import GhostPoints, Panels, WallGroup
 from sphframe.geometry.lattice import Lattice
 from sphframe.geometry.solid_domain import solid_domain
 from sphframe.geometry.solid_edges import SolidEdges
@@ -115,10 +115,6 @@ class SolidWalls(WallGroup):
     def feet_behind(self, points: Array) -> tuple[BoolArray, Array]:
         """Return which of ``points`` (n, 3), m, lie behind a wall, and their nearest points on the walls."""
         return self.domain.feet_behind(points)
-
-    def ends(self) -> list[End]:
-        """Return nothing: surfaces have no ends."""
-        return []
 
     def thin_place(self, least: float) -> tuple[float, ...] | None:
         """Return a point, m, where the solid within walls is thinner than ``least`` (m); None if there is none.

@@ -20,6 +20,7 @@ from sphframe.geometry.shapes import (
     Difference,
     Ellipse,
     Mesh,
+    Plane,
     Point,
     PointsFile,
     Polyline,
@@ -136,6 +137,10 @@ class CylinderWall(Cylinder, ShapeWall):
         return cylinder_solid(self.start, self.stop, circle, self.open_ends, far)
 
 
+class PlaneWall(Plane, ShapeWall):
+    """A plane wall, on the surface of the part of a box behind it."""
+
+
 class MeshWall(Mesh, ShapeWall):
     """A wall on the surface of a closed mesh, around the fluid or within it."""
 
@@ -221,6 +226,7 @@ Wall = Annotated[
     | DifferenceWall
     | SphereWall
     | CylinderWall
+    | PlaneWall
     | MeshWall,
     Field(discriminator="shape"),
 ]

@@ -200,7 +200,7 @@ def test_files_of_points_are_refused_with_the_line(tmp_path: Path, text: str, me
 def test_every_shape_has_an_example_or_says_what_its_file_holds() -> None:
     for model in SHAPES.values():
         assert ">>>" in model.__doc__ or "file" in model.model_fields
-    assert len(SHAPES) == 13
+    assert len(SHAPES) == 14
 
 
 def test_the_examples_of_the_page_of_shapes_run() -> None:

@@ -16,6 +16,7 @@ from sphframe.geometry import (
     Cylinder,
     Difference,
     Mesh,
+    Plane,
     Sphere,
     Union,
     solid_within,
@@ -23,7 +24,7 @@ from sphframe.geometry import (
     within,
 )
 from sphframe.geometry.solid_walls import SolidWalls
-from sphframe.geometry.walls import CylinderWall, MeshWall, SphereWall
+from sphframe.geometry.walls import CylinderWall, MeshWall, PlaneWall, SphereWall
 
 from .solid_integrals import filling_errors, wall_integral
 
@@ -233,3 +234,29 @@ def test_a_body_takes_its_mass_from_its_solid():
     np.testing.assert_allclose(solid.centroid, [1.5, 1.0, 0.5])
     np.testing.assert_allclose(solid.moments, np.diag([5.0, 10.0, 13.0]) * 6 / 12, atol=1e-12)
     assert solid_within([TANK]) is None
+
+
+def test_a_plane_bounds_the_fluid_on_the_side_where_it_is():
+    """A tank with a slope of 1 : 2 across it; the normal of the plane may also point into the solid."""
+    box = {"lower": (-20, -20, -20), "upper": (40, 40, 40)}
+    slope = Plane(point=(10, 0, 0), normal=(-1, 0, 2), **box)
+    tank = BoxWall(name="tank", lower=(0, 0, 0), upper=(20, 10, 12), open_faces=("+z",))
+    water = Difference(of=Box(lower=(0, 0, 0), upper=(20, 10, 9)), minus=[slope])
+    for sign in (-1, 1):
+        bed = PlaneWall(name="bed", point=(10, 0, 0), normal=(-sign, 0, 2 * sign), **box)
+        group = group_of(tank, bed, fluid=water, spacing=1.0)
+        assert group.behind(np.array([(15, 5, 2.4), (15, 5, 2.6), (5, 5, -0.1)])).tolist() == [True, False, True]
+        panels = group.panels(1.0)
+        own = (panels.wall == 1) & (panels.centre[:, 2] < 12)  # not the face of the box above the tank
+        np.testing.assert_allclose(panels.area[own].sum(axis=0), [50, 0, -100], atol=1e-9)
+    error = filling_errors(group, 1.0, count=100)
+    assert np.abs(error).max() <= 0.03
+    assert np.sqrt(np.mean(error**2)) <= 0.015
+
+
+def test_a_plane_that_does_not_cut_its_box_is_refused():
+    box = {"lower": (0, 0, 0), "upper": (1, 1, 1)}
+    assert Plane(point=(0.5, 0, 0), normal=(2, 0, 0), **box).geometry(0.1).bounds.tolist() == [[0, 0, 0], [0.5, 1, 1]]
+    for point, normal in (((2, 0, 0), (1, 0, 0)), ((0.5, 0.5, 0.5), (0, 0, 0)), ((0, 0, 1), (0, 0, 1))):
+        with pytest.raises(ValueError, match=r"does not cut the box .*; give a point in the box, and a normal"):
+            Plane(point=point, normal=normal, **box)
