@@ -64,6 +64,45 @@ def test_two_basins_with_different_levels_beside_a_plate(tmp_path, width, held):
     np.testing.assert_allclose(np.mean(forces, axis=0), RHO_G * (0.4**2 - 0.2**2) / 2, rtol=0.01)
 
 
+
+def mean_forces(simulation, name, until):
+    """Mean forces on a wall, by reaction and by pressure, over the second half of the time."""
+    forces = []
+    while simulation.time < until:
+        simulation.advance()
+        if simulation.time > 0.5 * until and simulation.step % 10 == 0:
+            load = simulation.wall_loads()[name]
+            forces.append((load.force, load.force_by_pressure))
+    return np.mean(forces, axis=0)
+
+
+def test_a_bent_line_holds_water_on_both_sides():
+    """A line with bends of 27 and 45 degrees between two levels, in each basin a polygon of fluid along it."""
+    line = [(0.5, 0.0), (0.5, 0.1), (0.45, 0.2), (0.5, 0.35)]
+    surface = 0.45 + 0.05 * 0.1 / 0.15
+    left = {"shape": "polygon", "points": [(0, 0), *line[:3], (surface, 0.3), (0, 0.3)]}
+    right = {"shape": "polygon", "points": [*line[:3], (1, 0.2), (1, 0)]}
+    simulation = made([{"shape": "polyline", "name": "plate", "points": line}], [left, right])
+    x, y = simulation.fields().position.T
+    is_left = x < np.interp(y, *np.transpose(line)[::-1])
+    by_reaction, by_pressure = mean_forces(simulation, "plate", 0.2)
+    x, y = simulation.fields().position.T
+    np.testing.assert_array_equal(x < np.interp(y, *np.transpose(line)[::-1]), is_left)
+    assert by_reaction[0] == pytest.approx(RHO_G * (0.3**2 - 0.2**2) / 2, rel=0.01)
+    assert by_pressure[0] == pytest.approx(RHO_G * (0.3**2 - 0.2**2) / 2, rel=0.01)
+
+
+def test_a_slender_tip_bears_the_weight_of_the_water():
+    half, height = 0.2 * np.tan(np.radians(4)), 0.2  # eight degrees
+    tip = ((0.5 - half, 0), (0.5, height), (0.5 + half, 0))
+    water = {"shape": "difference", "of": region((0, 0), (1, 0.3)), "minus": [{"shape": "polygon", "points": tip}]}
+    simulation = made([plate(*tip, closed=True)], [water])
+    by_reaction, by_pressure = mean_forces(simulation, "plate", 0.2)
+    assert simulation.particles_outside() == 0
+    exact = -RHO_G * (2 * half * 0.3 - half * height)
+    assert by_pressure == pytest.approx([0.0, exact], abs=0.04 * abs(exact))
+    assert by_reaction == pytest.approx([0.0, exact], abs=0.1 * RHO_G * 0.3 * SPACING)  # of a tenth of a spacing
+
 @pytest.mark.parametrize(
     ("wall", "fluid"),
     [
