@@ -64,7 +64,6 @@ def test_two_basins_with_different_levels_beside_a_plate(tmp_path, width, held):
     np.testing.assert_allclose(np.mean(forces, axis=0), RHO_G * (0.4**2 - 0.2**2) / 2, rtol=0.01)
 
 
-
 def mean_forces(simulation, name, until):
     """Mean forces on a wall, by reaction and by pressure, over the second half of the time."""
     forces = []
@@ -102,6 +101,7 @@ def test_a_slender_tip_bears_the_weight_of_the_water():
     exact = -RHO_G * (2 * half * 0.3 - half * height)
     assert by_pressure == pytest.approx([0.0, exact], abs=0.04 * abs(exact))
     assert by_reaction == pytest.approx([0.0, exact], abs=0.1 * RHO_G * 0.3 * SPACING)  # of a tenth of a spacing
+
 
 @pytest.mark.parametrize(
     ("wall", "fluid"),
