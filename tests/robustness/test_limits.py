@@ -1,6 +1,7 @@
 """Files without end, more particles than memory, and clients of the page that stay silent."""
 
 import errno
+import math
 import os
 import sys
 from pathlib import Path
@@ -45,5 +46,9 @@ def test_more_particles_than_memory_are_refused(
     if container:
         (tmp_path / "memory.max").write_text(f"{3 * little}\n")
         (tmp_path / "memory.current").write_text(f"{2 * little}\n")
-    with pytest.raises(InputError, match=r"particles, which need .* GB of memory or more, but only 0\.2 GB are free"):
+    with pytest.raises(
+        InputError, match=r"particles, which need .* GB of memory or more, but only 0\.2 GB are free"
+    ) as found:
         Simulation(case, threads=1)
+    spacing = math.sqrt(memory.LEAST_BYTES[2] * 1.2 * 0.6 / little)  # with which the column fits exactly
+    assert f"choose a spacing above {spacing:.2g} m" in str(found.value)
