@@ -17,6 +17,14 @@ all other cases, and where the method evaluates at the ghost, s = 1; for the cor
 Weights at the ghost that reproduce linear fields continue the velocity through the wall. This value must not be
 reversed once more, and it says nothing about the wall. Velocities are then means with the kernel average.
 
+With no slip and ``continuity = "free-slip"`` S is that of free slip, and the velocity for the viscosity is apart::
+
+    u_G = u_wall - s (sum_j Phi_j u_j - u_wall)
+
+Both continuations are smooth where the boundary layer is resolved. Where it is not, beside a body that starts or at a
+sharp edge, the particles next to the wall slip along it; the continuity then takes the reversed velocity of the ghosts
+for an outflow or inflow along the wall, and the pressure near the wall is wrong.
+
 Reason for s: weights of zeroth order sample the fluid at a larger distance from the wall than that of the mirror point.
 Without s the normal velocity of the ghosts is too large, the divergence at the wall is wrong, and the pressure of the
 first layer drifts (in the tank at rest with the normalised method by 1.5 % of rho g H).
@@ -27,11 +35,12 @@ negative pressures are clipped, because they draw particles of thin jets through
 particles; with the clipping none). A method that evaluates at the ghost always uses the balanced lift, since the mirror
 lift over a distance of zero is zero; a method that extrapolates uses none.
 
-Source: X. Huang et al. (2019), doi:10.3390/w11051110, section 2.2 and Eqs. 8, 13, 16, 21.
+Source: X. Huang et al. (2019), doi:10.3390/w11051110, section 2.2 and Eqs. 8, 13, 16, 21; two velocities with no slip
+after M. De Leffe, D. Le Touze, B. Alessandrini (2011), 6th international SPHERIC workshop.
 """
 
 from dataclasses import dataclass
-from typing import Any, final
+from typing import Any, Literal, final
 
 from sphframe.arrays import Array
 from sphframe.interfaces import (
@@ -60,8 +69,16 @@ _ORDERS = Orders(
 @final
 @dataclass(frozen=True)
 class FixedGhosts(WallTreatment):
-    """Ghosts behind the wall, to which the case's interpolator interpolates the fluid."""
+    """Ghosts behind the wall, to which the case's interpolator interpolates the fluid.
 
+    Attributes
+    ----------
+    continuity
+        with no slip, the velocity of ghosts in the continuity: all components are reversed (``"no-slip"``), or only the
+        normal one (``"free-slip"``). The viscosity always takes the former.
+    """
+
+    continuity: Literal["no-slip", "free-slip"] = "no-slip"
     traits = WallTraits(exact_constant=True, exact_hydrostatic=True, order=_ORDERS)
 
     def interpolator(self, chosen: BoundaryInterpolator) -> BoundaryInterpolator:
@@ -78,6 +95,7 @@ class FixedGhosts(WallTreatment):
         assert context.interpolator is not None
         dim, point = context.dim, context.interpolator.traits.evaluation_point
         balanced = context.balanced_lift or point.at_ghost
+        apart = context.no_slip and self.continuity == "free-slip"
         scaled = context.balanced_lift and context.corrected_velocity and not point.at_ghost
 
         def assign(
@@ -100,6 +118,9 @@ class FixedGhosts(WallTreatment):
                 slope = wall.distance / max(distance, 0.5 * wall.height)
             for d in range(dim):
                 velocity[d] = wall.velocity[d]
+                if apart:
+                    opposed = slope if fluid.neighbours > 0 else 0.0
+                    viscous_velocity[d] = wall.velocity[d] - opposed * (fluid.velocity[d] - wall.velocity[d])
             for e in range(dim if fluid.neighbours > 0 else 0):
                 relative = fluid.velocity[e] - wall.velocity[e]
                 velocity[e] += 0.5 * (1.0 - slope) * relative
@@ -108,7 +129,7 @@ class FixedGhosts(WallTreatment):
             return pressure, 1.0
 
         conjugate = context.corrected_velocity and not context.balanced_lift and point is EvaluationPoint.MIRROR
-        return WallParts(assign=assign, conjugate=conjugate)
+        return WallParts(assign=assign, conjugate=conjugate, own_viscous_velocity=apart)
 
 
 @final

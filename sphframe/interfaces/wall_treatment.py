@@ -63,7 +63,7 @@ class WallPoint(NamedTuple):
         (dim,) from the evaluation point to the particle, m.
     reflection
         (dim, dim) S, maps the fluid's velocity relative to the wall to that of the ghost; -1 for no slip, and for
-        mirror images that of free slip in any case.
+        mirror images and treatments with ``own_viscous_velocity`` that of free slip in any case.
     velocity
         (dim,) u_w, m/s.
     force

@@ -38,7 +38,7 @@ def initial_boundary(case: Case, scene: Scene, components: Components, parameter
         fluid=scene.fluid,
         spacing=case.particle_spacing,
         support=parameters.support,
-        no_slip=case.slip == "no" and not of_images,
+        no_slip=case.slip == "no" and not (of_images or components.walls.own_viscous_velocity),
         row_spacing=treatment.row_spacing * case.particle_spacing if in_row else None,
         periods=Periods.of(case.periodic, scene.domain),
     )

@@ -82,7 +82,10 @@ class OpenChannel:
         behind = state[:, 0] - self._nodes[0, 0]
         slope = self._smoothed(float(entering[:, 1].mean()), time, parameters.sound_speed)
         state[:, columns.pressure] = np.interp(y, self._heights, entering[:, 0]) + slope * behind
-        self._write(rows, self._inflow, state, columns, parameters, self._volume)
+        self._invert(state, len(state), parameters)
+        state[:, columns.volume] = self._volume
+        state[:, columns.mass] = self._volume * state[:, columns.density]
+        rows[self._inflow] = state
         state = rows[self._outflow]
         y = state[:, 1]
         slope, u, v = (np.interp(y, self._heights, column) for column in leaving[:, 1:].T)
@@ -90,7 +93,9 @@ class OpenChannel:
         p_out = self._pressure(rho0, rho0, parameters.sound_speed) if given.pressure is None else given.pressure
         state[:, columns.velocity] = np.column_stack([u, v])
         state[:, columns.pressure] = p_out + slope * (state[:, 0] - ends.outflow)
-        self._write(rows, self._outflow, state, columns, parameters, None)
+        self._invert(state, len(state), parameters)
+        state[:, columns.volume] = state[:, columns.mass] / state[:, columns.density]
+        rows[self._outflow] = state
 
     def _fits(self, rows: Array, parameters: LoopParameters) -> Array:
         """Return pressure, its gradient along x, and both velocities at the nodes (k, 4)."""
@@ -113,24 +118,6 @@ class OpenChannel:
         if time > last:
             self.memory[:] = time, before + (slope - before) * -math.expm1((last - time) / relaxation)
         return float(self.memory[1])
-
-    def _write(
-        self,
-        rows: Array,
-        zone: IntArray,
-        state: Array,
-        columns: Columns,
-        parameters: LoopParameters,
-        volume: float | None,
-    ) -> None:
-        """Write ``state`` with the density of its pressure; the mass is that of a ``volume``, or stays."""
-        self._invert(state, len(state), parameters)
-        if volume is None:
-            state[:, columns.volume] = state[:, columns.mass] / state[:, columns.density]
-        else:
-            state[:, columns.volume] = volume
-            state[:, columns.mass] = volume * state[:, columns.density]
-        rows[zone] = state
 
     def hold(self, rates: Array, columns: Columns) -> None:
         """Set the rates of velocity and density in both zones to zero."""

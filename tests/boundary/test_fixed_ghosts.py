@@ -45,3 +45,24 @@ def test_pressure_and_velocity_of_a_ghost(dim: int, method: str) -> None:
         expected = wall_u + (mixed @ (velocity - wall_u) if neighbours else 0.0)
         assert (pressure, share) == (pytest.approx(lifted, rel=1e-13), 1.0), (balanced, corrected, neighbours)
         assert found == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("no_slip", [True, False])
+def test_ghosts_may_slip_in_the_continuity_alone(no_slip: bool) -> None:
+    """Normal velocity reversed for the continuity, all for the viscosity, as far as the ghost is behind the wall."""
+    kernel, interpolator = compiled_kernel(RenormalisedGaussian(), 2), create("interpolators", "improved-shepard")
+    parts = FixedGhosts(continuity="free-slip").parts(WallContext(kernel, 2, interpolator, no_slip=no_slip))
+    assert parts.assign is not None
+    assert parts.own_viscous_velocity == no_slip
+    normal, wall_u, relative = np.array([0.0, -1.0]), np.array([0.3, -0.2]), np.array([1.5, 0.4])
+    offset = np.array([0.1, 0.2])  # the fluid's mean is 0.2 m further from the wall than the evaluation point
+    for neighbours in (0, 7):
+        fluid = Interpolated(OK, neighbours, 1.0, 3.0, False, offset, wall_u + relative)
+        wall = WallPoint(normal, 0.4, 0.3, np.array([0.0, -0.7]), np.diag([1.0, -1.0]), wall_u, np.zeros(2), 0.0)
+        found, viscous = np.full((2, 2), np.nan)
+        parts.assign(fluid, wall, None, found, viscous)
+        s = 0.4 / (0.3 + 0.2) if neighbours else 0.0
+        slips = 1.5 if neighbours else 0.0
+        assert found - wall_u == pytest.approx([slips, -s * 0.4])
+        if no_slip:
+            assert viscous - wall_u == pytest.approx(-s * relative)

@@ -12,9 +12,9 @@ from sphframe.analysis import summary
 from validation.command import carry_out
 
 CORRECTED = {
-    "improved-shepard": {"interpolator": "improved-shepard"},
-    "adami": {"interpolator": "adami"},
-    "mdbc": {"interpolator": "mdbc"},
+    "improved-shepard": {"wall_treatment": "fixed-ghosts", "interpolator": "improved-shepard"},
+    "adami": {"wall_treatment": "fixed-ghosts", "interpolator": "adami"},
+    "mdbc": {"wall_treatment": "fixed-ghosts", "interpolator": "mdbc"},
     "distance-ratio": {"wall_treatment": "distance-ratio"},
 }
 """methods whose ghosts have the corrected velocity in the continuity, with the parameters that choose them"""

@@ -12,6 +12,7 @@ from sphframe_flows.impacts import CeilingRelease, ColumnImpact
 from sphframe_flows.jet_on_plate import JetOnPlate
 from sphframe_flows.lid_driven_cavity import LidDrivenCavity
 from sphframe_flows.manufactured import ManufacturedFlow
+from sphframe_flows.moving_square import MovingSquare, SmoothStart
 from sphframe_flows.oblique_jet import ObliqueJet
 from sphframe_flows.oscillating import Oscillating
 from sphframe_flows.oscillating_cylinder import OscillatingCylinder
@@ -38,6 +39,7 @@ __all__ = [
     "JetOnPlate",
     "LidDrivenCavity",
     "ManufacturedFlow",
+    "MovingSquare",
     "ObliqueJet",
     "Oscillating",
     "OscillatingCylinder",
@@ -46,6 +48,7 @@ __all__ = [
     "RotatingBucket",
     "RotatingFrame",
     "SloshingTank",
+    "SmoothStart",
     "Spinning",
     "StandingWave",
     "StokesPlate",

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from sphframe import Case
-from sphframe.cases import Benchmark, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
+from sphframe.cases import Benchmark, Component, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import PolygonRegion, PolygonWall
 from sphframe_flows.solutions import mean_velocity, variable
 
@@ -84,6 +84,9 @@ class LidDrivenCavity(ExactCase):
     artificial_viscosity: float = with_default(Case, "artificial_viscosity", 0.0)
     shifting: float = with_default(Case, "shifting", 1.0)
     slip: Literal["free", "no"] = with_default(Case, "slip", "no")
+    wall_treatment: Component = with_default(
+        Case, "wall_treatment", Component(name="fixed-ghosts", options={"continuity": "free-slip"})
+    )
     tension: Literal["none", "bounded", "free"] = with_default(Case, "tension", "free")
     sound_speed: float | None = with_default(
         Case, "sound_speed", Derived("10 lid_speed", lambda case: 10.0 * case.lid_speed)

@@ -14,6 +14,7 @@ from sphframe_flows import (
     RotatingBucket,
     RotatingFrame,
     SloshingTank,
+    SmoothStart,
     Spinning,
     StokesPlate,
     Surge,
@@ -120,10 +121,19 @@ def test_forces_have_what_is_expected_of_them(component, check) -> None:  # type
         Spinning(angular_speed=-1.0, ramp_time=2.0),
         Oscillating(0.1, 5.0),
         Oscillating(0.1, 1.0),
+        SmoothStart(speed=1.0, duration=0.2),
     ]
 )
 def test_bodies_have_what_is_expected_of_them(component, check) -> None:  # type: ignore[no-untyped-def]
     check(component)
+
+
+def test_the_square_moves_as_published() -> None:
+    """SPHERIC's test 6: acceleration, velocity and displacement of the square at two times."""
+    body, nothing = SmoothStart(speed=1.0, duration=0.2), np.zeros(3)
+    for time, published in ((0.24, (0.367357, 0.0216464, 0.00111)), (8.0, (0.0, 0.999899, 7.47354))):
+        motion = body.motion(time, nothing, nothing, nothing)
+        assert [motion.acceleration[0], motion.velocity[0], motion.position[0]] == pytest.approx(published, abs=1.3e-3)
 
 
 @pytest.mark.parametrize("case", [Poiseuille(), Couette()], ids=["poiseuille", "couette"])
