@@ -35,7 +35,7 @@ ROOMS = {
     "boundary": "reference boundary physics simulation/test_tension.py simulation/test_simulation.py"
     " simulation/test_thin_walls.py",
     "neighbours": "neighbours reference simulation/test_periodic.py simulation/test_thin_walls.py",
-    "simulation": "reference simulation robustness/test_guards.py robustness/test_resume.py",
+    "simulation": "reference simulation robustness/test_guards.py robustness/test_resume.py robustness/test_limits.py",
     "bodies": "bodies reference simulation/test_body_force.py",
     "output": "output robustness/test_files.py",
     "geometry": "geometry boundary",
