@@ -355,10 +355,10 @@ def _collect(rows, dim, box, radius, grid, starts, order, first, members, found)
     themselves where ``order`` is empty. Returns the number of members; those without room are counted only.
     """
     x0, x1, y0, y1, z0, z1 = box
-    origin, cell, shape = grid.origin, grid.cell, grid.shape
+    origin, cell, shape = grid.origin, grid.cell, (grid.shape[0], grid.shape[1], grid.shape[2])  # no write changes it
     reach = radius * (1.0 + 1e-9)
     limit = radius * radius
-    room = members.shape[0] - 1  # the last place is scratch
+    room, found = np.uint64(members.shape[0] - 1), np.uint64(found)  # the last place is scratch
     if dim == 2:
         a0, a1 = 0, 0
         b0, b1 = _cell_range(x0 - reach, x1 + reach, origin[1], cell[1], shape[1])
@@ -382,13 +382,13 @@ def _collect(rows, dim, box, radius, grid, starts, order, first, members, found)
             if order.shape[0] == 0:
                 for j in range(begin, end):
                     members[min(found, room)] = j  # stays only if it is near, without a branch that is hard to predict
-                    found += 1 if _box_distance2(rows, j, dim, box) < limit else 0
+                    found += np.uint64(1) if _box_distance2(rows, j, dim, box) < limit else np.uint64(0)
             else:
                 for k in range(begin, end):
                     ordered = np.uint64(order[k]) + np.uint64(first)
                     members[min(found, room)] = ordered
-                    found += 1 if _box_distance2(rows, ordered, dim, box) < limit else 0
-    return found
+                    found += np.uint64(1) if _box_distance2(rows, ordered, dim, box) < limit else np.uint64(0)
+    return np.int64(found)
 
 
 @numba.njit(error_model="numpy")
