@@ -7,7 +7,7 @@ import numpy as np
 from sphframe.cases import Case, Scene
 from sphframe.errors import InputError
 
-LEAST_BYTES = {2: 400.0, 3: 2000.0}
+LEAST_BYTES = {2: 400.0, 3: 1400.0}
 """lowest memory per particle that was measured, by dimension"""
 _CONTAINER = Path("/sys/fs/cgroup")
 
