@@ -84,7 +84,9 @@ class MovingSquare(ExactCase):
 
     title: ClassVar[str] = "square that moves in a closed box"
     benchmarks: ClassVar[Mapping[str, Benchmark]] = {
-        "moving-square": Benchmark("drag", "A moving body with sharp edges and no slip.", (0.1, 0.05), {"until": 3.0})
+        "moving-square": Benchmark(
+            "mean_drag", "A moving body with sharp edges and no slip.", (0.1, 0.05), {"until": 3.0}
+        )
     }
 
     dimension: Literal[2] = quantity(2, "1", "dimension of space")
