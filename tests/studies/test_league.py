@@ -10,11 +10,14 @@ import xarray as xr
 from scipy import stats
 from typer.testing import CliRunner
 
+from sphframe.cases import load_case
 from sphframe.cli.app import app
 from sphframe.errors import InputError
 from sphframe.studies import compare
 from sphframe.studies.ensemble import band_table, difference_table
 from sphframe.studies.league import installed_benchmarks, installed_methods, rank
+from sphframe.studies.league.drawing import curves
+from sphframe.studies.league.result import ScoreTask
 from sphframe.studies.league.table import league_dataset
 from sphframe.studies.league.ties import ranks, relative_spread
 
@@ -48,6 +51,23 @@ def test_the_table_and_its_pages(cluster: str, tmp_path: Path) -> None:
         xr.testing.assert_allclose(kept, league.dataset)
     lines = (folder / "table.csv").read_text().splitlines()
     assert len(lines) == 5
+
+
+def test_what_was_measured_is_shown_beside_the_computation(tmp_path: Path) -> None:
+    case = load_case("dam-break-impact", None, {"particle_spacing": 0.06, "until": 0.02})
+    ScoreTask("impact", "dam-break-impact", case.model_dump(mode="json")).perform(
+        tmp_path / "r.nc", 1, lambda part: None
+    )
+    with xr.open_dataset(tmp_path / "r.nc") as result:
+        assert result.attrs["label"] == "computed by De Courcy (2024)"
+        assert result["P1 reference"].attrs["label"] == "measured by Lobovsky (2014)"
+        assert "P2 reference" not in result
+        hit = np.flatnonzero(result["P1 reference"].values > 0.25 * 1000.0 * 9.81 * 0.6)[0]
+        assert float(result["P1 reference at"][hit]) / np.sqrt(0.6 / 9.81) == pytest.approx(2.43, abs=0.05)
+        with_it, without = curves("one", {"a": result}), curves("one", {"a": result.drop_vars("P1 reference")})
+    assert with_it is not None
+    assert without is not None
+    assert with_it.content != without.content
 
 
 def test_a_method_that_lacks_what_a_case_needs_is_not_applicable(cluster: str, tmp_path: Path) -> None:

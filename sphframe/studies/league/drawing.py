@@ -16,10 +16,14 @@ _PANELS = 3
 
 
 def curves(name: str, results: Mapping[str, xr.Dataset]) -> Picture | None:
-    """Draw the first variables of a benchmark with all methods, and what is exact; None if no run has them."""
-    first = next((result for result in results.values() if _variables(result)), None)
-    if first is None:
+    """Draw the first variables of a benchmark with all methods, beside what is exact and what was measured.
+
+    None if no run has them. What is exact is drawn as far as the longest run goes.
+    """
+    drawn = [result for result in results.values() if _variables(result)]
+    if not drawn:
         return None
+    first = max(drawn, key=lambda result: float(result.attrs["end"]))
     variables = _variables(first)[:_PANELS]
     from matplotlib import colormaps
 
@@ -38,9 +42,14 @@ def curves(name: str, results: Mapping[str, xr.Dataset]) -> Picture | None:
                 axes.plot(x, y, ".", color=colours.get(method, "grey"), markersize=1.5, alpha=0.5, label=method)
         exact = first[f"{key} exact"]
         axes.plot(first[f"{key} at"], exact, color="black", linewidth=1.2, label=first.attrs.get("label", "exact"))
-        low, high = float(np.nanmin(exact)), float(np.nanmax(exact))
-        room = 0.5 * (high - low) or abs(high) or 1.0
-        axes.set_ylim(low - room, high + room)
+        if f"{key} reference" in first:
+            series = first[f"{key} reference"]
+            axes.plot(first[f"{key} reference at"], series, "kx", markersize=2.5, label=series.attrs["label"])
+        known = exact.values[np.isfinite(exact)]
+        if len(known):
+            low, high = float(known.min()), float(known.max())
+            room = 0.5 * (high - low) or abs(high) or 1.0
+            axes.set_ylim(low - room, high + room)
         tidy(axes, xlabel=_label(first[f"{key} at"]))
         axes.set_title(_label(exact), fontsize=9, loc="left")
     figure.legend(

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from sphframe.analysis import summary
+from sphframe.analysis import pressure_scale, summary, time_scale
 from sphframe.analysis.placed import walls_at
+from sphframe.analysis.reference import shipped_references
 from sphframe.cases import CaseWarning, ExactCase
 from sphframe.errors import InputError, PluginError, SimulationError
 from sphframe.hooks import hookimpl
@@ -118,7 +119,7 @@ def _kept(dataset: xr.Dataset, case: Any, clock: StepClock) -> xr.Dataset:
     if isinstance(case, ExactCase) and dataset.sizes["time"] and dataset.sizes["probe_time"]:
         exact = case.exact(dataset)
         attributes |= exact.attrs
-        variables |= _curves(exact, case.measured(dataset))
+        variables |= _curves(exact, case.measured(dataset)) | _measurements(exact, dataset)
     if dataset.sizes["time"]:
         last = dataset.isel(time=-1)
         variables["position"] = (("particle", "space"), last["position"].values.astype(np.float32))
@@ -129,6 +130,18 @@ def _kept(dataset: xr.Dataset, case: Any, clock: StepClock) -> xr.Dataset:
         ]
         variables["walls"] = (("node", "space"), np.vstack(lines) if lines else np.zeros((0, 2)))
     return xr.Dataset(variables, attrs=attributes)
+
+
+def _measurements(exact: xr.Dataset, dataset: xr.Dataset) -> dict[str, Any]:
+    """Return the series that the case ships for its variables as ``NAME reference`` over ``NAME reference at``."""
+    result: dict[str, Any] = {}
+    for series in shipped_references(dataset):
+        name, _, label = str(series.name).partition(" ")
+        if name in exact.data_vars:
+            own = f"{name} reference point"
+            result[f"{name} reference at"] = (own, series["t"].values * time_scale(dataset))
+            result[f"{name} reference"] = (own, series.values * pressure_scale(dataset), {"label": label})
+    return result
 
 
 def _curves(exact: xr.Dataset, measured: xr.Dataset) -> dict[str, Any]:
