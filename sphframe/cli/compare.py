@@ -63,7 +63,7 @@ def _table(dataset: xr.Dataset) -> Table:
     table = Table(box=None, pad_edge=False)
     table.add_column("method", no_wrap=True, min_width=max(len(str(name)) for name in dataset["interpolator"].values))
     for head in ("spacing (m)", "error", "order", "CPU time (s)", "cost (us)", "fallback (%)", "to the end"):
-        table.add_column(head, overflow="fold")
+        table.add_column(head, overflow="fold", min_width=max(len(word) for word in head.split()))
     for method in dataset["interpolator"].values:
         for spacing in dataset["particle_spacing"].values:
             one = dataset.sel(interpolator=method, particle_spacing=spacing)
