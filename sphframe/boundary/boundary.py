@@ -27,7 +27,7 @@ class Boundary:
     """Fixed ghost particles of ``walls``, carried by ``bodies``; ``fluid`` at the start tells which sides are wet.
 
     They are in layers that fill the ``support``, or ``row_spacing`` (m) apart on the walls; ghosts that no fluid
-    before the walls can reach are left out.
+    before the walls can reach are left out, unless the fluid is interpolated to the ghosts themselves.
 
     Attributes
     ----------
@@ -87,7 +87,9 @@ class Boundary:
         layers = math.ceil(support / spacing - 1e-9)
         sides = sides_of(self.groups, spacing, layers)
         if row_spacing is None:
-            drawn, sides = within(support, ghosts_of(self.groups, spacing, layers), sides)
+            drawn = ghosts_of(self.groups, spacing, layers)
+            if not evaluation_point.at_ghost:  # there those out of reach belong to the filling of those within
+                drawn, sides = within(support, drawn, sides)
         else:
             drawn = row_of(self.groups, row_spacing, spacing)
         self.dim = drawn.position.shape[1]

@@ -53,3 +53,17 @@ def test_walls_bear_the_pressure_of_a_particle_in_a_corner():
         simulation.advance()
     assert simulation.fluid_count == 1
     assert np.all(simulation.fields().velocity > 0.1)
+
+
+def test_corner_ghosts_within_reach_count_whole_under_still_water():
+    """Also for a method at the ghost, whose filling there depends on the ghosts around it."""
+    for method in ("improved-shepard", "adami"):
+        given = {"particle_spacing": 0.03, "until": 0.1, "tension": "none", "interpolator": method}
+        simulation = Simulation(load_case("hydrostatic-tank", None, given), threads=1)
+        boundary, columns, fluid = simulation.system.boundary, simulation.columns, simulation.fields().position
+        distance = np.linalg.norm(boundary.position[:, None] - fluid, axis=2).min(axis=1)
+        reached = (distance < 3.7 * 0.03) & (boundary.position[:, 1] < 0.0)
+        share = simulation.system.rows[simulation.fluid_count :, columns.volume] / boundary.volume
+        corners = reached & ((boundary.position[:, 0] < 0.0) & (boundary.position[:, 1] < -0.06))
+        assert corners.any()
+        np.testing.assert_allclose(share[reached], 1.0, err_msg=method)
