@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from sphframe.analysis.figures import line_style, plain, printed_unit, tidy
-from sphframe.analysis.scales import pressure_scale, time_scale
+from sphframe.analysis.scales import dimensional
 from sphframe.cases import Case, ExactCase
 from sphframe.errors import InputError, PluginError
 from sphframe.registry import is_address, load
@@ -59,24 +59,38 @@ def with_exact_solution(dataset: xr.Dataset) -> ExactCase:
     return case
 
 
+def references_by_variable(
+    references: Sequence[xr.DataArray], dataset: xr.Dataset, exact: xr.Dataset
+) -> dict[str, list[xr.DataArray]]:
+    """Return the series that are to be seen with each variable of ``exact``, in Pa over s, named without it.
+
+    A series of ``references``, p/(rho0 g H) over t sqrt(g/H), belongs to the variable that its name begins with.
+    """
+    found: dict[str, list[xr.DataArray]] = {str(name): [] for name in exact.data_vars}
+    for series in references:
+        variable, _, label = str(series.name).partition(" ")
+        if variable in found:
+            found[variable].append(dimensional(series, dataset).rename(label))
+    return found
+
+
 def draw_exact(
     axes: "list[Axes]", dataset: xr.Dataset, case: ExactCase, exact: xr.Dataset, references: Sequence[xr.DataArray] = ()
 ) -> None:
     """Draw each variable of the run as points and its ``exact`` solution as a line, one on each of ``axes``.
 
-    A series p/(rho0 g H) over t sqrt(g/H) of ``references`` is drawn with the variable that its name begins with.
+    Those of ``references`` that belong to a variable, see above, are drawn with it.
     """
     measured, label_of_exact = case.measured(dataset), exact.attrs.get("label", "exact")
+    own = references_by_variable(references, dataset, exact)
     for panel, (name, value) in zip(axes, exact.data_vars.items(), strict=False):
         (dim,) = value.dims
         x, order = value[dim].values, np.argsort(value[dim].values, kind="stable")
         panel.plot(x, measured[name].values, ".", markersize=2.5, label="run")
         panel.plot(x[order], value.values[order], color="black", linewidth=1.0, label=label_of_exact)
-        for series in (one for one in references if str(one.name).split()[0] == name):
-            t, p = series["t"].values * time_scale(dataset), series.values * pressure_scale(dataset)
-            panel.plot(
-                t, p, "s", color=line_style(1)["color"], markersize=2.0, label=plain(str(series.name).partition(" ")[2])
-            )
+        for series in own[str(name)]:
+            style: dict[str, Any] = {"color": line_style(1)["color"], "markersize": 2.0}
+            panel.plot(series[series.dims[0]].values, series.values, "s", label=plain(str(series.name)), **style)
         for set_label, array in ((panel.set_xlabel, value[dim]), (panel.set_ylabel, value)):
             label, unit = array.attrs.get("long_name", str(array.name)), array.attrs.get("units", "1")
             set_label(plain(label if unit == "1" else f"{label} ({printed_unit(unit)})"), fontsize=10)

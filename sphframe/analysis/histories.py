@@ -8,29 +8,28 @@ import numpy as np
 import xarray as xr
 
 from sphframe.analysis.figures import line_style, plain, printed_unit, tidy
-from sphframe.analysis.scales import pressure_scale, time_scale
+from sphframe.analysis.scales import dimensional
 from sphframe.analysis.work import work_of_bodies
 from sphframe.arrays import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Reference = xr.DataArray | Sequence[xr.DataArray] | None
 _MOST_LINES = 8
 """drawn in a panel; further walls are left out, which its title says"""
 
 
-def history_panels(dataset: xr.Dataset, reference: Reference = None) -> "list[Callable[[Axes], None]]":
+def history_panels(dataset: xr.Dataset, references: Sequence[xr.DataArray] = ()) -> "list[Callable[[Axes], None]]":
     """Return the functions that draw one panel each, of what the run has: probes, gauges, bodies, forces, energies.
 
     Parameters
     ----------
-    reference
-        one or several series of p/(rho0 g H) over t sqrt(g/H), drawn together with the probes.
+    references
+        series of p/(rho0 g H) over t sqrt(g/H), drawn together with the probes.
     """
     panels: list[Callable[[Axes], None]] = []
     if "probe_pressure" in dataset:
-        panels.append(lambda axes: _draw_probes(axes, dataset, reference))
+        panels.append(lambda axes: _draw_probes(axes, dataset, references))
     if "gauge_elevation" in dataset:
         panels.append(lambda axes: _draw_gauges(axes, dataset))
     if "body_position" in dataset:
@@ -40,11 +39,11 @@ def history_panels(dataset: xr.Dataset, reference: Reference = None) -> "list[Ca
     return [*panels, lambda axes: _draw_energies(axes, dataset)]
 
 
-def _draw_probes(axes: "Axes", dataset: xr.Dataset, reference: Reference) -> None:
+def _draw_probes(axes: "Axes", dataset: xr.Dataset, references: Sequence[xr.DataArray]) -> None:
     series = dataset["probe_pressure"].load()
-    given = [] if reference is None else [reference] if isinstance(reference, xr.DataArray) else reference
-    for mark, one in zip(itertools.cycle("ox+^"), given, strict=False):
-        t, p = one[one.dims[0]].values * time_scale(dataset), one.values * pressure_scale(dataset) * 1e-3
+    for mark, one in zip(itertools.cycle("ox+^"), references, strict=False):
+        drawn = dimensional(one, dataset)
+        t, p = drawn[drawn.dims[0]].values, drawn.values * 1e-3
         style: dict[str, Any] = {"markersize": 3.0, "color": "black", "zorder": 4}
         axes.plot(
             t, p, mark, markerfacecolor="none", markeredgewidth=0.7, label=plain(str(one.name or "reference")), **style

@@ -22,6 +22,13 @@ def time_scale(dataset: xr.Dataset) -> float:
     return math.sqrt(dataset.attrs["depth"] / gravity) if gravity > 0.0 else 1.0
 
 
+def dimensional(series: xr.DataArray, dataset: xr.Dataset) -> xr.DataArray:
+    """Return a series p/(rho0 g H) over t sqrt(g/H) in Pa over s, at the scales of a run."""
+    (dim,) = series.dims
+    times = series[dim].values * time_scale(dataset)
+    return xr.DataArray(series.values * pressure_scale(dataset), {dim: times}, [dim], name=series.name)
+
+
 def rest_pressure(dataset: xr.Dataset, height: ArrayLike) -> Array:
     """Pressure at rest in Pa at ``height`` (m) above the bed: rho0 c0^2 (exp(g (H - y)/c0^2) - 1), at least 0.
 

@@ -175,7 +175,7 @@ def method_rows(report: "Report") -> list[list[Text]]:
     verdicts = report.verdicts()
     in_columns = {name for names in _COLUMNS.values() for name in names}
     rest = [verdict for name, verdict in verdicts.items() if name not in in_columns]
-    ends = report.responses[:: max(len(report.responses) - 1, 1)]
+    ends = (*report.responses[:1], *report.responses[-1:])
     measured = [[one.noise for one in ends], [one.outlier for one in ends]]
     return [
         [

@@ -10,6 +10,7 @@ import xarray as xr
 
 from sphframe.analysis import read_reference_series
 from sphframe.analysis.reference import shipped_references
+from sphframe.analysis.scales import dimensional
 from sphframe.cases import Case, load_case
 from sphframe.errors import InputError
 from sphframe.output import open_dataset
@@ -105,7 +106,9 @@ def compare(
     with contextlib.ExitStack() as stack:
         runs = {key: stack.enter_context(open_dataset(files[task.label])) for key, task in tasks.items()}
         dataset = comparison_dataset({key[:2]: run for key, run in runs.items() if key[2] == 0}, series, probe)
-        drawn = shipped_references(next(iter(runs.values()))) if series is None else [series]
+        first = next(iter(runs.values()))
+        shown = shipped_references(first) if series is None else [series]
+        drawn = [dimensional(one, first) for one in shown]
         if repeats > 1:
             dataset = dataset.assign(ensemble_variables(runs))
     with replaced_as_a_whole(output / "comparison.nc") as draft:

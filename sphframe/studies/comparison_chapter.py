@@ -21,7 +21,7 @@ def comparison_chapter(
     Parameters
     ----------
     references
-        series of p/(rho g H) over t sqrt(g/H) that are drawn with the pressures at ``probe``, by default the first.
+        series of pressures, Pa, over times, s, that are drawn with the pressures at ``probe``, by default the first.
     """
     return Chapter(
         "comparison",
@@ -102,10 +102,9 @@ def _histories(dataset: xr.Dataset, references: Sequence[xr.DataArray], compared
                 *thinned(one["probe_time"], one), color=colour(str(method)), linewidth=0.8, label=plain(str(method))
             )
         for mark, series in zip("ox+^", references if name == names[0] else (), strict=False):
-            t = series[series.dims[0]].values * dataset.attrs["time_scale"]
             style: dict[str, Any] = {"color": "black", "markersize": 3.0, "markerfacecolor": "none"}
-            pressure = series.values * dataset.attrs["pressure_scale"]
-            axes.plot(t, pressure, mark, markeredgewidth=0.7, label=plain(str(series.name)), **style)
+            t, p = series[series.dims[0]].values, series.values
+            axes.plot(t, p, mark, markeredgewidth=0.7, label=plain(str(series.name)), **style)
         tidy(axes, title=plain(name), ylabel="p (Pa)")
     panels[-1].set_xlabel("t (s)")
     panels[0].legend(fontsize=8, frameon=False, ncols=3)

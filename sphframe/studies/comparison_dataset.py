@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from sphframe.analysis import convergence_order, pressure_scale, summary, time_scale
+from sphframe.analysis import convergence_order, pressure_scale, summary
 from sphframe.arrays import Array
 from sphframe.errors import InputError
 from sphframe.studies.comparison_error import error_measure
@@ -60,13 +60,15 @@ def comparison_dataset(
     def table(value: Callable[[str, float], Any]) -> NDArray[Any]:
         return np.array([[value(method, spacing) for spacing in spacings] for method in methods])
 
-    measure = error_measure(first, reference, compared)
-    error = table(
-        lambda m, s: (
-            measure.of(runs[m, s], runs[m, spacings[-1]]) if runs[m, s].attrs["completed"] == "yes" else math.nan
-        )
-    )
-    numbers = {key: _numbers(run) for key, run in runs.items()}
+    figures = {key: summary(run) for key, run in runs.items()}
+    measure = error_measure(first, figures[methods[0], spacings[0]], reference, compared)
+
+    def error_of(method: str, spacing: float) -> float:
+        run, finest = runs[method, spacing], runs[method, spacings[-1]]
+        return measure.of(run, figures[method, spacing], finest) if run.attrs["completed"] == "yes" else math.nan
+
+    error = table(error_of)
+    numbers = {key: _numbers(run, figures[key]) for key, run in runs.items()}
     times = _common_times(runs.values())
     pressure = table(lambda m, s: _pressures(runs[m, s], times, len(probes)))
     order = [_order(spacings, row) for row in error]
@@ -92,14 +94,13 @@ def comparison_dataset(
             "title": str(first.attrs["title"]),
             "case_name": str(first.attrs["case_name"]),
             "pressure_scale": pressure_scale(first),
-            "time_scale": time_scale(first),
         },
     )  # fmt: skip
 
 
-def _numbers(run: xr.Dataset) -> dict[str, Any]:
-    """Return what the dataset holds of one run, NaN for what is not known."""
-    known = {name: value for name, value in summary(run).items() if value is not None}
+def _numbers(run: xr.Dataset, figures: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what the dataset holds of one run, with the key ``figures`` of its summary; NaN for what is not known."""
+    known = {name: value for name, value in figures.items() if value is not None}
     numbers: dict[str, Any] = {name: float(known.get(name, math.nan)) for name in _NUMBERS if name != "completed"}
     numbers["cost"] = 1e6 * _time_per_step(run) / numbers["particles"]
     numbers["fallback"] = fallback_share(run)

@@ -1,14 +1,13 @@
 """Studies: the error by which a comparison judges its runs, and in words what it is."""
 
 import math
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from sphframe.analysis import pressure_scale, rest_pressure, running_mean
-from sphframe.analysis.exact import exact_case
 
 
 class ErrorMeasure(NamedTuple):
@@ -21,16 +20,18 @@ class ErrorMeasure(NamedTuple):
     units
         1 or Pa.
     of
-        function of a run that was completed and of the run of the same method at the finest spacing; returns the
-        error, NaN where there is nothing to compare with.
+        function of a run that was completed, of its summary, and of the run of the same method at the finest spacing;
+        returns the error, NaN where there is nothing to compare with.
     """
 
     meaning: str
     units: str
-    of: Callable[[xr.Dataset, xr.Dataset], float]
+    of: Callable[[xr.Dataset, Mapping[str, Any], xr.Dataset], float]
 
 
-def error_measure(first: xr.Dataset, reference: xr.DataArray | None, probe: str | None) -> ErrorMeasure:
+def error_measure(
+    first: xr.Dataset, figures: Mapping[str, Any], reference: xr.DataArray | None, probe: str | None
+) -> ErrorMeasure:
     """Return how the errors of runs of one case are measured.
 
     The error is that from ``reference`` if it is given; else the first of the errors of a case with an exact solution;
@@ -39,8 +40,8 @@ def error_measure(first: xr.Dataset, reference: xr.DataArray | None, probe: str 
 
     Parameters
     ----------
-    first
-        one of the runs.
+    first, figures
+        one of the runs, and its :func:`sphframe.analysis.summary`.
     reference
         series of p/(rho g H) over t sqrt(g/H), or None.
     probe
@@ -52,13 +53,12 @@ def error_measure(first: xr.Dataset, reference: xr.DataArray | None, probe: str 
         return ErrorMeasure(
             f"{pressures} reference series",
             units,
-            lambda run, _: (
+            lambda run, *_: (
                 math.nan if probe is None else float(run.sph.error("probe_pressure", reference, probe=probe)["rms"])
             ),
         )
-    case = exact_case(first)
-    if case is not None:
-        name = next(iter(case.errors(first)), "error")
+    if "errors" in figures:
+        name = next(iter(figures["errors"]), "error")
         return ErrorMeasure(f"error of the case from its exact solution: {name}", "1", _from_exact)
     if probe is None:
         return ErrorMeasure("not known: the case has neither probes nor an exact solution", "1", lambda *_: math.nan)
@@ -67,19 +67,18 @@ def error_measure(first: xr.Dataset, reference: xr.DataArray | None, probe: str 
     return ErrorMeasure(f"{pressures} finest spacing of the same method", units, _from_finest)
 
 
-def _from_exact(run: xr.Dataset, _: xr.Dataset) -> float:
-    case = exact_case(run)
-    return math.nan if case is None else float(next(iter(case.errors(run).values()), math.nan))
+def _from_exact(_: xr.Dataset, figures: Mapping[str, Any], __: xr.Dataset) -> float:
+    return float(next(iter(figures.get("errors", {}).values()), math.nan))
 
 
-def _from_rest(run: xr.Dataset, _: xr.Dataset) -> float:
+def _from_rest(run: xr.Dataset, *_: object) -> float:
     """Return the difference over the second half of the run."""
     late = run["probe_pressure"].values[run["probe_time"].values >= 0.5 * float(run["probe_time"][-1])]
     difference = late - rest_pressure(run, run["probe_y"].values)
     return float(np.sqrt(np.mean(difference**2))) / (pressure_scale(run) or 1.0)
 
 
-def _from_finest(run: xr.Dataset, finest: xr.Dataset) -> float:
+def _from_finest(run: xr.Dataset, _: Mapping[str, Any], finest: xr.Dataset) -> float:
     """Return the difference of running means over a hundredth of the run; NaN for the run at the finest spacing."""
     if run is finest or finest.attrs["completed"] != "yes":
         return math.nan

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from sphframe.analysis import pressure_scale, summary, time_scale
+from sphframe.analysis import summary
+from sphframe.analysis.exact import references_by_variable
 from sphframe.analysis.placed import walls_at
 from sphframe.analysis.reference import shipped_references
 from sphframe.cases import CaseWarning, ExactCase
@@ -135,12 +136,11 @@ def _kept(dataset: xr.Dataset, case: Any, clock: StepClock) -> xr.Dataset:
 def _measurements(exact: xr.Dataset, dataset: xr.Dataset) -> dict[str, Any]:
     """Return the series that the case ships for its variables as ``NAME reference`` over ``NAME reference at``."""
     result: dict[str, Any] = {}
-    for series in shipped_references(dataset):
-        name, _, label = str(series.name).partition(" ")
-        if name in exact.data_vars:
+    for name, found in references_by_variable(shipped_references(dataset), dataset, exact).items():
+        for series in found:
             own = f"{name} reference point"
-            result[f"{name} reference at"] = (own, series["t"].values * time_scale(dataset))
-            result[f"{name} reference"] = (own, series.values * pressure_scale(dataset), {"label": label})
+            result[f"{name} reference at"] = (own, series[series.dims[0]].values)
+            result[f"{name} reference"] = (own, series.values, {"label": str(series.name)})
     return result
 
 
