@@ -12,12 +12,13 @@ from sphframe_flows.impacts import CeilingRelease, ColumnImpact
 from sphframe_flows.jet_on_plate import JetOnPlate
 from sphframe_flows.lid_driven_cavity import LidDrivenCavity
 from sphframe_flows.manufactured import ManufacturedFlow
-from sphframe_flows.moving_square import MovingSquare, SmoothStart
+from sphframe_flows.moving_square import MovingSquare
 from sphframe_flows.oblique_jet import ObliqueJet
 from sphframe_flows.oscillating import Oscillating
 from sphframe_flows.oscillating_cylinder import OscillatingCylinder
 from sphframe_flows.rotating_bucket import RotatingBucket
 from sphframe_flows.sloshing_tank import SloshingTank
+from sphframe_flows.smooth_start import SmoothStart
 from sphframe_flows.spinning import Spinning
 from sphframe_flows.standing_wave import StandingWave
 from sphframe_flows.still_water import CircularSill, SubmergedBox, TiltedTank, TwoBasins

@@ -1,71 +1,27 @@
 """A square that starts to move in a closed box."""
 
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import ClassVar, Literal, final
 
 import numpy as np
 import xarray as xr
 
-from sphframe import Array, Case, InputError, Motion, RigidBody
+from sphframe import Array, Case, InputError
 from sphframe.cases import Benchmark, Component, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import DifferenceRegion, Polygon, PolygonWall
+from sphframe_flows.smooth_start import SmoothStart
 from sphframe_flows.solutions import variable
 
 _WIDTH = 0.2
 """time scale T of the start, over D / U"""
 _MEAN_OVER = 0.1
 """window of the means of the drag, over D / U"""
-
-
-@final
-@dataclass(frozen=True)
-class SmoothStart(RigidBody):
-    """A body that starts along x to the speed U, with a pulse of acceleration of the form of a Gaussian curve::
-
-        X'' = U / (sqrt(pi) T) exp(-s^2),    X' = U / 2 (erf(s) + erf(s0)),    s = t / T - s0,    s0 = sqrt(ln 1000)
-
-    The acceleration at the start is a thousandth of the largest one, at t = s0 T, and the last speed (1 - 1e-4) U.
-
-    Attributes
-    ----------
-    speed
-        U, m/s.
-    duration
-        T, s.
-    """
-
-    speed: float
-    duration: float
-
-    def __post_init__(self) -> None:
-        if not self.duration > 0.0:
-            raise ValueError(f"duration = {self.duration} must be positive")
-
-    def motion(self, time: float, position: Array, velocity: Array, load: Array) -> Motion:
-        """Return the motion at ``time``."""
-        start, root = math.sqrt(math.log(1000.0)), math.sqrt(math.pi)
-        s = max(time, 0.0) / self.duration - start
-
-        def integral(s: float) -> float:
-            return s * math.erf(s) + math.exp(-s * s) / root
-
-        way = integral(s) - integral(-start) + math.erf(start) * (s + start)
-        along = np.array([self.speed, 0.0, 0.0])
-        return Motion(
-            0.5 * self.duration * way * along,
-            0.5 * (math.erf(s) + math.erf(start)) * along,
-            math.exp(-s * s) / (root * self.duration) * along,
-        )
-
-
-# time over D / U, drag over rho U^2 D / 2, as means over _MEAN_OVER
 _DRAG = np.array([
     (0.3, 2.17), (0.4, 5.29), (0.5, 8.17), (0.56, 8.66), (0.6, 8.33), (0.7, 6.12), (0.8, 3.95), (0.9, 2.86),
     (1.0, 2.50), (1.25, 2.18), (1.5, 2.08), (2.0, 1.93), (2.5, 1.92), (3.0, 1.93), (3.5, 1.87), (4.0, 1.88),
     (4.5, 1.89), (5.0, 1.84), (5.5, 1.87), (6.0, 1.88),
 ])  # fmt: skip
+"""time over D / U, drag over rho U^2 D / 2, as means over _MEAN_OVER"""
 
 
 @final
