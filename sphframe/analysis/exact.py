@@ -2,7 +2,7 @@
 
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -59,18 +59,19 @@ def with_exact_solution(dataset: xr.Dataset) -> ExactCase:
     return case
 
 
-def references_by_variable(
-    references: Sequence[xr.DataArray], dataset: xr.Dataset, exact: xr.Dataset
+def references_by_name(
+    references: Iterable[xr.DataArray], dataset: xr.Dataset, names: Iterable[Any]
 ) -> dict[str, list[xr.DataArray]]:
-    """Return the series that are to be seen with each variable of ``exact``, in Pa over s, named without it.
+    """Return the series that are to be seen with each of ``names``, of probes or variables, in Pa over s.
 
-    A series of ``references``, p/(rho0 g H) over t sqrt(g/H), belongs to the variable that its name begins with.
+    A series of ``references``, p/(rho0 g H) over t sqrt(g/H), belongs to the name that its own begins with, and is
+    called by the rest.
     """
-    found: dict[str, list[xr.DataArray]] = {str(name): [] for name in exact.data_vars}
+    found: dict[str, list[xr.DataArray]] = {str(name): [] for name in names}
     for series in references:
-        variable, _, label = str(series.name).partition(" ")
-        if variable in found:
-            found[variable].append(dimensional(series, dataset).rename(label))
+        name, _, label = str(series.name).partition(" ")
+        if name in found:
+            found[name].append(dimensional(series, dataset).rename(label))
     return found
 
 
@@ -82,7 +83,7 @@ def draw_exact(
     Those of ``references`` that belong to a variable, see above, are drawn with it.
     """
     measured, label_of_exact = case.measured(dataset), exact.attrs.get("label", "exact")
-    own = references_by_variable(references, dataset, exact)
+    own = references_by_name(references, dataset, exact.data_vars)
     for panel, (name, value) in zip(axes, exact.data_vars.items(), strict=False):
         (dim,) = value.dims
         x, order = value[dim].values, np.argsort(value[dim].values, kind="stable")

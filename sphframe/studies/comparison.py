@@ -9,6 +9,7 @@ from typing import Any
 import xarray as xr
 
 from sphframe.analysis import read_reference_series
+from sphframe.analysis.exact import references_by_name
 from sphframe.analysis.reference import shipped_references
 from sphframe.analysis.scales import dimensional
 from sphframe.cases import Case, load_case
@@ -107,15 +108,17 @@ def compare(
         runs = {key: stack.enter_context(open_dataset(files[task.label])) for key, task in tasks.items()}
         dataset = comparison_dataset({key[:2]: run for key, run in runs.items() if key[2] == 0}, series, probe)
         first = next(iter(runs.values()))
-        shown = shipped_references(first) if series is None else [series]
-        drawn = [dimensional(one, first) for one in shown]
+        probes = [str(name) for name in dataset["probe"].values]
+        drawn = references_by_name(shipped_references(first) if series is None else [], first, probes)
+        if series is not None and probes:
+            drawn[probe or probes[0]].append(dimensional(series, first))
         if repeats > 1:
             dataset = dataset.assign(ensemble_variables(runs))
     with replaced_as_a_whole(output / "comparison.nc") as draft:
         dataset.to_netcdf(draft, engine="netcdf4")
     sizes = dataset["error"].sizes
     title = f"{dataset.attrs['title']}: {sizes['interpolator']} methods, {sizes['particle_spacing']} resolutions"
-    report = write_report(output, title, [comparison_chapter(dataset, drawn, probe)], facts=software_of(tasks.values()))
+    report = write_report(output, title, [comparison_chapter(dataset, drawn)], facts=software_of(tasks.values()))
     return Comparison(dataset, report)
 
 

@@ -1,7 +1,7 @@
 """Studies: the chapter of a comparison of methods: its table and its figures."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,15 +13,13 @@ from sphframe.studies.drawing import colour, picture, thinned, tidy
 from sphframe.studies.ensemble import band_table, difference_table
 
 
-def comparison_chapter(
-    dataset: xr.Dataset, references: Sequence[xr.DataArray] = (), probe: str | None = None
-) -> Chapter:
+def comparison_chapter(dataset: xr.Dataset, references: Mapping[str, Sequence[xr.DataArray]] | None = None) -> Chapter:
     """Return the tables and figures of a dataset that :func:`sphframe.studies.compare` has made.
 
     Parameters
     ----------
     references
-        series of pressures, Pa, over times, s, that are drawn with the pressures at ``probe``, by default the first.
+        series of pressures, Pa, over times, s, that are drawn with those of a probe, by its name.
     """
     return Chapter(
         "comparison",
@@ -38,7 +36,7 @@ def comparison_chapter(
             Table("comparison", "Error and cost of each method at each resolution", _rows(dataset)),
             *([band_table(dataset), difference_table(dataset)] if "peak" in dataset else []),
         ],
-        [_curves(dataset), *([_histories(dataset, references, probe)] if dataset.sizes["probe"] else [])],
+        [_curves(dataset), *([_histories(dataset, references or {})] if dataset.sizes["probe"] else [])],
     )
 
 
@@ -91,8 +89,8 @@ def _curves(dataset: xr.Dataset) -> Picture:
     return picture("comparison", "Error and cost of each method at each resolution.", figure)
 
 
-def _histories(dataset: xr.Dataset, references: Sequence[xr.DataArray], compared: str | None) -> Picture:
-    names = sorted((str(p) for p in dataset["probe"].values), key=lambda name: name != compared)[:4]
+def _histories(dataset: xr.Dataset, references: Mapping[str, Sequence[xr.DataArray]]) -> Picture:
+    names = sorted((str(p) for p in dataset["probe"].values), key=lambda name: not references.get(name))[:4]
     figure = new_figure(10.0, 2.4 * len(names) + 0.8)
     panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
     for axes, name in zip(panels, names, strict=True):
@@ -101,7 +99,7 @@ def _histories(dataset: xr.Dataset, references: Sequence[xr.DataArray], compared
             axes.plot(
                 *thinned(one["probe_time"], one), color=colour(str(method)), linewidth=0.8, label=plain(str(method))
             )
-        for mark, series in zip("ox+^", references if name == names[0] else (), strict=False):
+        for mark, series in zip("ox+^", references.get(name, ()), strict=False):
             style: dict[str, Any] = {"color": "black", "markersize": 3.0, "markerfacecolor": "none"}
             t, p = series[series.dims[0]].values, series.values
             axes.plot(t, p, mark, markeredgewidth=0.7, label=plain(str(series.name)), **style)

@@ -59,7 +59,7 @@ def error_measure(
         )
     if "errors" in figures:
         name = next(iter(figures["errors"]), "error")
-        return ErrorMeasure(f"error of the case from its exact solution: {name}", "1", _from_exact)
+        return ErrorMeasure(f"difference from the exact solution: {name}", "1", _from_exact)
     if probe is None:
         return ErrorMeasure("not known: the case has neither probes nor an exact solution", "1", lambda *_: math.nan)
     if first.attrs["case_name"] == "hydrostatic-tank":

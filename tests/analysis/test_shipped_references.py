@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from sphframe.analysis import plot_run
+from sphframe.analysis.exact import references_by_name
 from sphframe.analysis.figures import printed_unit
 from sphframe.analysis.reference import shipped_references
 from sphframe.cases.dam_break import DamBreak
@@ -37,6 +39,18 @@ def test_measurements_are_drawn_with_the_variable_of_their_place() -> None:
             arrivals.append(float(line.get_xdata()[hit]) / case.time_scale)
     assert arrivals[0] == pytest.approx(2.43, abs=0.05)
     assert arrivals == sorted(arrivals)
+
+
+def test_a_series_belongs_to_the_probe_that_its_name_begins_with() -> None:
+    dataset = xr.Dataset(attrs={"reference_density": 1000.0, "gravity": 10.0, "depth": 2.5})
+    series = [xr.DataArray([1.0, 0.5], {"t": [0.0, 2.0]}, name=name) for name in ("P2 measured", "P9 measured", "P1")]
+    found = references_by_name(series, dataset, ["P1", "P2", "P3"])
+    assert {name: [str(one.name) for one in own] for name, own in found.items()} == {
+        "P1": [""], "P2": ["measured"], "P3": [],
+    }  # fmt: skip
+    (one,) = found["P2"]
+    assert one.values.tolist() == [25000.0, 12500.0]
+    assert one["t"].values.tolist() == [0.0, 1.0]
 
 
 def test_a_dam_break_of_another_shape_has_no_measurement() -> None:

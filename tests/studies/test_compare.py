@@ -54,7 +54,7 @@ def test_without_exact_values_the_error_is_from_the_finest_spacing(cluster: str,
     assert "finest spacing" in found.dataset["error"].attrs["long_name"]
     chapter = comparison_chapter(found.dataset)
     with matplotlib.rc_context({"svg.fonttype": "none"}):
-        drawn = comparison_chapter(found.dataset, [xr.DataArray([1.0], {"t": [2.0]}, name="Buchner")])
+        drawn = comparison_chapter(found.dataset, {"P1": [xr.DataArray([1.0], {"t": [2.0]}, name="Buchner")]})
     assert [b"Buchner" in one.pictures[-1].content for one in (chapter, drawn)] == [False, True]
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from sphframe.analysis import summary
-from sphframe.analysis.exact import references_by_variable
+from sphframe.analysis.exact import references_by_name
 from sphframe.analysis.placed import walls_at
 from sphframe.analysis.reference import shipped_references
 from sphframe.cases import CaseWarning, ExactCase
@@ -136,7 +136,7 @@ def _kept(dataset: xr.Dataset, case: Any, clock: StepClock) -> xr.Dataset:
 def _measurements(exact: xr.Dataset, dataset: xr.Dataset) -> dict[str, Any]:
     """Return the series that the case ships for its variables as ``NAME reference`` over ``NAME reference at``."""
     result: dict[str, Any] = {}
-    for name, found in references_by_variable(shipped_references(dataset), dataset, exact).items():
+    for name, found in references_by_name(shipped_references(dataset), dataset, exact.data_vars).items():
         for series in found:
             own = f"{name} reference point"
             result[f"{name} reference at"] = (own, series[series.dims[0]].values)
