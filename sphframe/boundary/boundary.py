@@ -27,7 +27,7 @@ class Boundary:
     """Fixed ghost particles of ``walls``, carried by ``bodies``; ``fluid`` at the start tells which sides are wet.
 
     They are in layers that fill the ``support``, or ``row_spacing`` (m) apart on the walls; ghosts that no fluid
-    before the walls can reach are left out, unless the fluid is interpolated to the ghosts themselves.
+    before the walls can reach are left out, unless ghosts ``fade``, to whose filling they belong.
 
     Attributes
     ----------
@@ -79,6 +79,7 @@ class Boundary:
         spacing: float,
         support: float,
         no_slip: bool,
+        fade: bool = False,
         row_spacing: float | None = None,
         periods: Periods | None = None,
     ) -> None:
@@ -88,7 +89,7 @@ class Boundary:
         sides = sides_of(self.groups, spacing, layers)
         if row_spacing is None:
             drawn = ghosts_of(self.groups, spacing, layers)
-            if not evaluation_point.at_ghost:  # there those out of reach belong to the filling of those within
+            if not fade:
                 drawn, sides = within(support, drawn, sides)
         else:
             drawn = row_of(self.groups, row_spacing, spacing)

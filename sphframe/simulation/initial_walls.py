@@ -39,17 +39,15 @@ def initial_boundary(case: Case, scene: Scene, components: Components, parameter
         spacing=case.particle_spacing,
         support=parameters.support,
         no_slip=case.slip == "no" and not (of_images or components.walls.own_viscous_velocity),
+        fade=case.tension == "none",
         row_spacing=treatment.row_spacing * case.particle_spacing if in_row else None,
         periods=Periods.of(case.periodic, scene.domain),
     )
     if in_row or of_images or components.walls.surface is not None:
         _check_thick(boundary)
     if case.tension == "none" and interpolator is not None:
-        filled = filling_by(
-            boundary.position, boundary.volume, boundary.points, components, parameters, boundary.sight,
-            boundary.periods,
-        )  # fmt: skip
-        boundary.full[:] = 1.0 - filled
+        ghosts = boundary.position, boundary.volume, boundary.points
+        boundary.full[:] = 1.0 - filling_by(*ghosts, components, parameters, boundary.sight, boundary.periods)
     return boundary
 
 
