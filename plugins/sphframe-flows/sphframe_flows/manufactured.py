@@ -116,7 +116,7 @@ class ManufacturedFlow(ExactCase):
         """Return the ``kinetic_energy``, that of the exact velocity of the particles in the first frame."""
         first = dataset.isel(time=0)
         velocity = self.solution.state(first["position"].values, 0.0).velocity
-        energy = 0.5 * float((first["mass"].values * np.square(velocity).sum(axis=1)).sum())
+        energy = 0.5 * float((first["particle_mass"].values * np.square(velocity).sum(axis=1)).sum())
         decay = np.exp(-2.0 * self.decay * dataset["probe_time"].values)
         return xr.Dataset(
             {"kinetic_energy": variable("probe_time", energy * decay, "J m-1", "kinetic energy")},
