@@ -36,7 +36,12 @@ def tasks(field: str, quick: bool) -> list[studies.Task]:
     counts, until = ((10, 20), 0.02) if quick else (COUNTS, 0.5)
     found: list[studies.Task] = []
     for count in counts:
-        size = {"particle_spacing": 1.0 / count, "until": until, "frame_interval": until / 20.0}
+        size = {
+            "particle_spacing": 1.0 / count,
+            "until": until,
+            "frame_interval": until / 20.0,
+            "probe_interval": until / 20.0,
+        }
         for name, treatment in list(TREATMENTS.items())[: 1 if quick else None]:
             chosen = {"field": field, "wall_treatment": treatment}
             found.append(studies.run_task(f"{field}, {name}, {count}", "manufactured", **chosen, **size))

@@ -1,4 +1,4 @@
-"""Exact partial derivatives of functions of two variables up to third order, by arithmetic of Taylor polynomials."""
+"""Exact partial derivatives of functions of two variables, up to third order, by arithmetic of Taylor polynomials."""
 
 from collections.abc import Callable
 from typing import Self, final
@@ -7,27 +7,25 @@ import numpy as np
 
 from sphframe import Array
 
-_DEGREE = 3
-_PLACES = [(i, j) for i in range(_DEGREE + 1) for j in range(_DEGREE + 1 - i)]
 _FACTORIAL = (1.0, 1.0, 2.0, 6.0)
 
 
 @final
 class Jet:
-    """Values of a function f(x, y) at many points, with its Taylor coefficients f_ij/(i! j!), i + j <= 3.
+    """Values of a function f(x, y) at many points, with its Taylor coefficients f_ij/(i! j!), i + j <= degree <= 3.
 
     Coefficients are arrays (n,) by (i, j); those that are missing are zero. Sums, products, powers and the functions
     :func:`sine` and :func:`cosine` of jets are jets.
     """
 
-    def __init__(self, coefficients: dict[tuple[int, int], Array]) -> None:
-        self._coefficients = coefficients
+    def __init__(self, coefficients: dict[tuple[int, int], Array], degree: int = 3) -> None:
+        self._coefficients, self._degree = coefficients, degree
 
     @classmethod
-    def variables(cls, points: Array) -> tuple[Self, Self]:
-        """Return the jets of x and y at ``points`` (n, 2)."""
+    def variables(cls, points: Array, degree: int = 3) -> tuple[Self, Self]:
+        """Return the jets of x and y at ``points`` (n, 2), for derivatives up to the ``degree``, at least 1."""
         one = np.ones(len(points))
-        return cls({(0, 0): points[:, 0], (1, 0): one}), cls({(0, 0): points[:, 1], (0, 1): one})
+        return cls({(0, 0): points[:, 0], (1, 0): one}, degree), cls({(0, 0): points[:, 1], (0, 1): one}, degree)
 
     def derivative(self, i: int, j: int) -> Array:
         """Return the derivative (n,), i times with respect to x and j times with respect to y."""
@@ -41,22 +39,23 @@ class Jet:
     def __add__(self, other: "Jet | float") -> "Jet":
         """Return the sum."""
         if not isinstance(other, Jet):
-            return Jet({**self._coefficients, (0, 0): self.value + other})
+            return Jet({**self._coefficients, (0, 0): self.value + other}, self._degree)
         found = dict(self._coefficients)
         for place, added in other._coefficients.items():
             found[place] = found[place] + added if place in found else added
-        return Jet(found)
+        return Jet(found, self._degree)
 
     def __mul__(self, other: "Jet | float") -> "Jet":
         """Return the product, without terms of higher degree."""
         if not isinstance(other, Jet):
-            return Jet({place: value * other for place, value in self._coefficients.items()})
+            return Jet({place: value * other for place, value in self._coefficients.items()}, self._degree)
         found: dict[tuple[int, int], Array] = {}
         for (i, j), a in self._coefficients.items():
             for (k, m), b in other._coefficients.items():
-                if (place := (i + k, j + m)) in _PLACES:
+                if i + j + k + m <= self._degree:
+                    place = i + k, j + m
                     found[place] = found[place] + a * b if place in found else a * b
-        return Jet(found)
+        return Jet(found, self._degree)
 
     def __neg__(self) -> "Jet":
         """Return the negative."""
@@ -81,17 +80,15 @@ class Jet:
 
     def composed(self, derivatives: Callable[[Array], tuple[Array, Array, Array, Array]]) -> "Jet":
         """Return g(f) for a function g with the ``derivatives`` (g, g', g'', g''')."""
-        rest = Jet({place: value for place, value in self._coefficients.items() if place != (0, 0)} | _zero(self.value))
+        degree = self._degree
+        others = {place: value for place, value in self._coefficients.items() if place != (0, 0)}
+        rest = Jet(others | {(0, 0): np.zeros_like(self.value)}, degree)
         value, *slopes = derivatives(self.value)
-        found, power = Jet({(0, 0): value}), Jet({(0, 0): np.ones_like(value)})
-        for slope, factorial in zip(slopes, _FACTORIAL[1:], strict=True):
+        found, power = Jet({(0, 0): value}, degree), Jet({(0, 0): np.ones_like(value)}, degree)
+        for slope, factorial in zip(slopes[:degree], _FACTORIAL[1:], strict=False):
             power = power * rest
-            found = found + power * Jet({(0, 0): slope / factorial})
+            found = found + power * Jet({(0, 0): slope / factorial}, degree)
         return found
-
-
-def _zero(like: Array) -> dict[tuple[int, int], Array]:
-    return {(0, 0): np.zeros_like(like)}
 
 
 def sine(jet: Jet) -> Jet:

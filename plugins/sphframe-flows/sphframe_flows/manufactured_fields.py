@@ -118,7 +118,7 @@ class Manufactured:
 
     def state(self, points: Array, time: float) -> State:
         """Return the flow at ``points`` (n, 2) and ``time``, s."""
-        x, y = Jet.variables(points)
+        x, y = Jet.variables(points, degree=1)
         psi, p = self.field.psi(x, y), self._pressure(x, y)
         t = math.exp(-self.decay * time)
         velocity = np.stack([psi.derivative(0, 1), -psi.derivative(1, 0)], axis=1)
