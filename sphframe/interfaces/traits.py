@@ -34,10 +34,7 @@ _ADVICE = {
     ),
 }
 
-OK = int(Status.OK)
-DRY = int(Status.DRY)
-TOO_FEW = int(Status.TOO_FEW)
-SINGULAR = int(Status.SINGULAR)
+OK, DRY, TOO_FEW, SINGULAR = map(int, Status)
 
 
 class EvaluationPoint(enum.StrEnum):
@@ -87,6 +84,8 @@ class Traits:
         the weights do not depend on the particles' volumes.
     kernel_independent
         the weights depend on the cut-off radius, but not on the kernel.
+    kernel_gradient
+        the weights depend on the derivative of the kernel.
     continuous
         the weights are continuous in the evaluation point.
     jumps_at_cut_off
@@ -108,6 +107,7 @@ class Traits:
     rotation_invariant: bool = True
     volume_independent: bool = False
     kernel_independent: bool = False
+    kernel_gradient: bool = False
     continuous: bool = True
     jumps_at_cut_off: bool = False
     dimensions: tuple[int, ...] = (2, 3)

@@ -22,7 +22,15 @@ if TYPE_CHECKING:
     from sphframe.testing.order import Fit, OrderReport, measure_order, verify_order
     from sphframe.testing.particle_files import Particles, read_particles
     from sphframe.testing.proof import BrokenPromiseError
-    from sphframe.testing.strategies import clouds
+    from sphframe.testing.strategies import (
+        basins,
+        body_states,
+        clouds,
+        flattened_clouds,
+        kernel_arguments,
+        oscillators,
+        states,
+    )
     from sphframe.testing.suite import Check, checks_of, parametrize_with_checks
     from sphframe.testing.verification import Report, verify
     from sphframe.testing.wall_treatments import WallResiduals, poiseuille_error, wall_residuals
@@ -35,7 +43,15 @@ _HOMES = {
     "sphframe.testing.particle_files": ["Particles", "read_particles"],
     "sphframe.testing.order": ["Fit", "OrderReport", "measure_order", "verify_order"],
     "sphframe.testing.proof": ["BrokenPromiseError"],
-    "sphframe.testing.strategies": ["clouds"],
+    "sphframe.testing.strategies": [
+        "basins",
+        "body_states",
+        "clouds",
+        "flattened_clouds",
+        "kernel_arguments",
+        "oscillators",
+        "states",
+    ],
     "sphframe.testing.suite": ["Check", "checks_of", "parametrize_with_checks"],
     "sphframe.testing.verification": ["Report", "verify"],
     "sphframe.testing.wall_treatments": ["WallResiduals", "poiseuille_error", "wall_residuals"],
@@ -55,16 +71,22 @@ __all__ = [
     "Particles",
     "Report",
     "WallResiduals",
+    "basins",
+    "body_states",
     "catalogue",
     "checks_of",
     "clouds",
     "evaluate",
+    "flattened_clouds",
     "ghost_responses",
     "judge",
+    "kernel_arguments",
     "measure_order",
+    "oscillators",
     "parametrize_with_checks",
     "poiseuille_error",
     "read_particles",
+    "states",
     "verify",
     "verify_order",
     "wall_residuals",

@@ -297,6 +297,55 @@ def _cut(points: Array, volumes: Array, radius: float, rng: np.random.Generator,
     return Cloud(points[inside], volumes[inside], radius, lift)
 
 
+FLAT = ("straight line or plane beside the point", "straight line or plane through the point", "circle or sphere")
+"""what neighbours approach in :func:`flattened`; ``line`` is one in three dimensions"""
+
+
+def flattened(
+    shape: str, dim: int, seed: int, thickness: float, *, turn: int = 0, lifted: bool = False, spacing: float = 1.0
+) -> Cloud:
+    """Build a cloud whose particles lie within ``thickness`` of a set on which a polynomial vanishes.
+
+    Parameters
+    ----------
+    shape
+        one of :data:`FLAT`, or ``line``.
+    dim
+        2 or 3.
+    seed
+        of the places of the particles, before the cloud is rotated.
+    thickness
+        largest distance from the set, over its length; 0 for particles in it, within round-off.
+    turn
+        seed of the rotation, which is none for 0, and of the order of the particles.
+    lifted
+        whether the ghost lies away from the evaluation point.
+    spacing
+        particle spacing, m.
+    """
+    rng = np.random.default_rng(seed)
+    radius = 3.9
+    if shape == FLAT[2]:
+        around = rng.normal(size=(5 * dim, dim))
+        around /= np.linalg.norm(around, axis=1, keepdims=True)
+        away = around * (1.0 + thickness * rng.uniform(-0.5, 0.5, (len(around), 1)))
+        points = 1.5 * away + rng.uniform(-0.5, 0.5, dim) / np.sqrt(dim)
+    else:
+        free = 1 if shape == "line" else dim - 1
+        side = 13 if free == 1 else 5
+        axes = np.meshgrid(*[np.linspace(-2.0, 2.0, side)] * free, indexing="ij")
+        along = np.stack(axes, axis=-1).reshape(-1, free) + rng.uniform(-0.1, 0.1, (side**free, free))
+        across = 2.0 * thickness * rng.uniform(-0.5, 0.5, (len(along), dim - free))
+        points = np.hstack([along, across + (0.8 if shape == FLAT[0] else 0.0)])
+    volumes = rng.uniform(0.8, 1.2, len(points))
+    lift = 0.5 * radius * _direction(rng, dim) if lifted else np.zeros(dim)
+    if turn:
+        turned = np.random.default_rng(turn)
+        rotation, order = _rotation(turned, dim), turned.permutation(len(points))
+        points, volumes, lift = points[order] @ rotation.T, volumes[order], rotation @ lift
+    return Cloud(points, volumes, radius, lift).scaled(spacing)
+
+
 @lru_cache(maxsize=64)
 def catalogue(dim: int, families: tuple[str, ...] = ALL, *, lifted: bool = False) -> tuple[Cloud, ...]:
     """Return the fixed clouds with which every check begins: five of each family, and spray of 1 to 6 drops."""

@@ -20,6 +20,7 @@ from sphframe import (
     EvaluationPoint,
     Traits,
     WeightsFunction,
+    create,
     local_array,
 )
 from sphframe.testing import BrokenPromiseError, checks_of
@@ -233,7 +234,7 @@ def dry(kernel, dim):
 # wrong order of consistency
 
 
-def first_order(kernel, dim, sign=1.0, lift_factor=1.0, ridge=0.0, guarded=True, shift=0, skip_last=False):
+def first_order(kernel, dim, sign=1.0, lift_factor=1.0, ridge=0.0, guarded=True, shift=0, thinnest=1e-8):
     """Moving least squares about the centre of mass of the weights, or the same with a mistake."""
     entries = dim * dim
 
@@ -268,7 +269,7 @@ def first_order(kernel, dim, sign=1.0, lift_factor=1.0, ridge=0.0, guarded=True,
             target[a] = sign * (lift_factor * lift[a] / support - centre[a])
         for a in range(dim):
             matrix[a * dim + a] += ridge
-            if guarded and not matrix[a * dim + a] > 1e-8 * trace:
+            if guarded and not matrix[a * dim + a] > thinnest * trace:
                 return SINGULAR
             for b in range(a + 1, dim):
                 factor = matrix[b * dim + a] / matrix[a * dim + a]
@@ -316,6 +317,27 @@ def dishonest_solve(kernel, dim):
 @wrong("unlimited weights", "bounded_weights", **LINEAR)
 def unlimited(kernel, dim):
     return first_order(kernel, dim, ridge=1e-14, guarded=False)
+
+
+@wrong("a rank decided by round-off", "rank", **LINEAR)
+def any_pivot(kernel, dim):
+    return first_order(kernel, dim, thinnest=0.0)
+
+
+@wrong("a thickness measured along the axes", "rank", **LINEAR)
+def along_axes(kernel, dim):
+    right = first_order(kernel, dim, thinnest=1e-30)
+
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        for a in range(dim):
+            low = high = offsets[0, a]
+            for j in range(out.shape[0]):
+                low, high = min(low, offsets[j, a]), max(high, offsets[j, a])
+            if high - low < 1e-4 * support:
+                return SINGULAR
+        return right(offsets, distances, kernel_values, volumes, support, lift, out)
+
+    return weights
 
 
 @wrong("weights off by one neighbour", "linear_reproduction", **LINEAR)
@@ -596,6 +618,24 @@ def one_third(kernel, dim):
     return weighted(lambda s, v, w, j: v * value(min(3.0 * s, 0.999 * kernel.support)))
 
 
+@wrong(
+    "the derivative of a Gaussian hard coded",
+    "kernel",
+    **LINEAR,
+    kernel_gradient=True,
+    evaluation_point=EvaluationPoint.EXTRAPOLATED,
+)
+def hard_coded_gradient(kernel, dim):
+    gradient = create("kernels", "gaussian").gradient_function()
+    return create("interpolators", "mdbc").point_weights(kernel._replace(gradient=gradient), dim)
+
+
+@wrong("the derivative of the kernel, not declared", "kernel", **AVERAGE)
+def undeclared_gradient(kernel, dim):
+    slope, q = kernel.gradient, kernel.support
+    return weighted(lambda s, v, w, j: v * w - 1e-3 * v * slope(q * s))
+
+
 @wrong("V squared", "additivity", **AVERAGE)
 def volumes_squared(kernel, dim):
     return weighted(lambda s, v, w, j: v * v * w)
@@ -702,7 +742,7 @@ def test_there_are_enough_wrong_methods():
     assert len(CASES) >= 25
 
 
-PLAIN = ("kernel", "additivity", "locality", "continuity", "interpolates_particles", "fewest_points")
+PLAIN = ("rank", "kernel", "additivity", "locality", "continuity", "interpolates_particles", "fewest_points")
 """checks that run here in plain Python, since the compilation of each wrong method would take longer"""
 
 

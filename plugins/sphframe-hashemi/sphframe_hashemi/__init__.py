@@ -41,7 +41,7 @@ class NormalDerivative(BoundaryInterpolator):
     in 2-D (3-D); SINGULAR where L does not exist, or sum omega vanishes.
     """
 
-    traits = Traits(fewest_points=(2, 3), evaluation_point=EvaluationPoint.DIRECTED, rotation_invariant=True)
+    traits = Traits(fewest_points=(2, 3), evaluation_point=EvaluationPoint.DIRECTED, kernel_gradient=True)
 
     def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
         """Return the weights function, whose ``lift`` is the normal."""

@@ -58,6 +58,7 @@ class MDBC(BoundaryInterpolator):
     traits = Traits(
         reproduces_degree=1,
         fewest_points=(3, 4),
+        kernel_gradient=True,
         jumps_at_cut_off=True,
         evaluation_point=EvaluationPoint.EXTRAPOLATED,
         order=_ORDERS,

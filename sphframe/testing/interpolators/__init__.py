@@ -7,7 +7,7 @@ explanation.
 from collections.abc import Callable
 
 from sphframe.interfaces import Traits
-from sphframe.testing.interpolators import compiled, declaration, invariance, solver, weights
+from sphframe.testing.interpolators import compiled, declaration, invariance, rank, solver, weights
 from sphframe.testing.interpolators.comparison import CheckFunction, with_each_kernel
 
 __all__ = ["CHECKS", "CHECKS_OF_TRAITS"]
@@ -19,6 +19,7 @@ CHECKS: dict[str, CheckFunction] = {
     "fewest_points": declaration.check_fewest_points,
     "guards": weights.check_guards,
     "bounded_weights": weights.check_bounded_weights,
+    "rank": rank.check_rank,
     "reflection_invariance": invariance.check_reflection_invariance,
     "permutation_invariance": invariance.check_permutation_invariance,
     "translation_invariance": invariance.check_translation_invariance,

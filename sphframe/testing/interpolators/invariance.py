@@ -283,19 +283,40 @@ class _Rescaled(Kernel):
         return self._kernel.normalisation(dim) * 1.5**dim
 
 
+class _Steeper(Kernel):
+    """A kernel whose derivative is not that of its values, which shows whether weights depend on the derivative."""
+
+    def __init__(self, kernel: Kernel) -> None:
+        self._kernel = kernel
+        self.support = kernel.support  # type: ignore[misc]
+
+    def value_function(self) -> ScalarFunction:
+        return self._kernel.value_function()
+
+    def gradient_function(self) -> ScalarFunction:
+        gradient = compile_part(self._kernel.gradient_function())
+        return lambda q: (1.0 + 0.3 * q) * gradient(q)
+
+    def normalisation(self, dim: int) -> float:
+        return self._kernel.normalisation(dim)
+
+
 def check_kernel(method: BoundaryInterpolator, dim: int) -> None:
     """The weights are those of the kernel W(r) that is given, however many smoothing lengths its support has.
 
-    A method whose weights are the same for every kernel of equal support declares ``kernel_independent``.
+    A method whose weights are the same for every kernel of equal support declares ``kernel_independent``. One whose
+    weights depend on dW/dr declares ``kernel_gradient``; then they must change where the kernel has another derivative
+    than its values, as they do not where the derivative of one kernel is written into the method.
     """
     gaussian, other = create("kernels", "gaussian"), create("kernels", "wendland-c2")
-    runs = [evaluator(method, dim, kernel) for kernel in (gaussian, _Rescaled(gaussian), other)]
-    degree, depends = degree_of(method), False
+    kernels = (gaussian, _Rescaled(gaussian), other, _Steeper(gaussian))
+    runs = [evaluator(method, dim, kernel) for kernel in kernels]
+    degree, depends, slopes = degree_of(method), False, False
     for family in REGULAR:
         for seed in range(3):
             cloud = build(family, dim, seed, ratio=1.3 if dim == 2 else 1.0, lifted=extrapolates(method))
             cloud = cloud.clear_of_cut_off(CLEAR)
-            one, same, another = (run(cloud) for run in runs)
+            one, same, another, steeper = (run(cloud) for run in runs)
             difference = difference_between(method, cloud, one, same, degree)
             if difference is not None:
                 raise broken(
@@ -308,6 +329,8 @@ def check_kernel(method: BoundaryInterpolator, dim: int) -> None:
             if one.status == another.status == OK:
                 alike = np.abs(one.weights - another.weights).max() <= 1e-12
                 depends = depends or not alike
+            if one.status == steeper.status == OK:
+                slopes = slopes or np.abs(one.weights - steeper.weights).max() > 1e-9
     if method.traits.kernel_independent and depends:
         raise broken(method, dim, "the weights depend on the kernel, but kernel_independent is declared")
     if not method.traits.kernel_independent and not depends:
@@ -316,4 +339,13 @@ def check_kernel(method: BoundaryInterpolator, dim: int) -> None:
             dim,
             "the weights do not depend on the kernel: use kernel_values or the functions of the kernel, or declare"
             " kernel_independent",
+        )
+    if slopes and not method.traits.kernel_gradient:
+        raise broken(method, dim, "the weights depend on kernel.gradient: declare kernel_gradient")
+    if method.traits.kernel_gradient and not slopes:
+        raise broken(
+            method,
+            dim,
+            "the weights do not depend on kernel.gradient, but kernel_gradient is declared: is the derivative of one"
+            " kernel written into the method?",
         )
