@@ -383,6 +383,12 @@ def _evaluate(
     fields: Annotated[
         list[str] | None, typer.Option("--field", metavar="KIND=NAME", help="such as pressure=Press; repeatable")
     ] = None,
+    walls: Annotated[
+        str | None, typer.Option(metavar="NAME", help="wall particles: array of a file of PySPH, or another file")
+    ] = None,
+    gravity: Annotated[
+        float | None, typer.Option(metavar="M/S2", help="downwards, for walls; by default that of the run, or 0")
+    ] = None,
     sample: Annotated[int, typer.Option(min=1, metavar="N", help="number of particles that are left out")] = 2000,
     as_json: Annotated[bool, typer.Option("--json", help="print JSON instead of a table")] = False,
 ) -> None:
@@ -399,6 +405,8 @@ def _evaluate(
         as_json=as_json,
         reading={"time": time, "spacing": spacing, "array": array, "fields": read_assignments(fields or [], {})},
         sample=sample,
+        walls=walls,
+        gravity=gravity,
     )
 
 

@@ -13,8 +13,8 @@ from rich.text import Text
 from sphframe.cli.values import allow_imports_from_here
 from sphframe.interfaces import Status
 from sphframe.registry import create
-from sphframe.testing.judgement import Judgement, judge
-from sphframe.testing.particle_files import read_particles
+from sphframe.testing.judgement import Judgement, judge, judge_walls
+from sphframe.testing.particle_files import read_particles, read_walls
 from sphframe.testing.verification import parse_label
 
 
@@ -27,36 +27,64 @@ def evaluate_command(
     as_json: bool,
     reading: Mapping[str, Any],
     sample: int,
+    walls: str | None = None,
+    gravity: float | None = None,
 ) -> None:
-    """Judge methods on the particles of a file; print a row for each."""
+    """Judge methods on the particles of a file, and at its walls; print a row for each."""
     allow_imports_from_here([*methods, kernel])
     particles = read_particles(file, **reading)
+    common = {name: reading[name] for name in ("time", "fields") if name in reading}
+    wall_points = read_walls(file, particles, walls=walls, gravity=gravity, **common)
     h = particles.length(smoothing_length)
     found = {}
     for label in methods:
         name, options = parse_label(label)
-        found[label] = judge(
-            create("interpolators", name, **options), particles, kernel=kernel, smoothing_length=h, sample=sample
-        )
+        method = create("interpolators", name, **options)
+        given: dict[str, Any] = {"kernel": kernel, "smoothing_length": h, "sample": sample}
+        found[label] = _figures(judge(method, particles, **given))
+        if wall_points is not None:
+            at_walls = judge_walls(method, particles, wall_points, **given)
+            found[label]["walls"] = _figures_at_walls(at_walls)
     if as_json:
-        print(json.dumps({label: _figures(judgement) for label, judgement in found.items()}, indent=2))
+        print(json.dumps(found, indent=2))
         return
     console = Console(markup=False, highlight=False, soft_wrap=True)
     count, dim = particles.position.shape
     console.print(f"{file}: {count:,} particles in {dim}-D, spacing {particles.spacing:g} m, h = {h:g} m, {kernel}")
-    table = Table(box=None, pad_edge=False)
-    for heading in ("method", "error inside", "error near edges", "noise", "largest gain", "statuses"):
-        table.add_column(heading)
-    for label, judgement in found.items():
-        figures = _figures(judgement)
-        statuses = ", ".join(f"{name} {100 * share:.2f} %" for name, share in figures["statuses"].items() if share)
-        numbers = (f"{figures[name]:.3g}" for name in ("error_inside", "error_near_edges", "noise", "largest_gain"))
-        table.add_row(Text(label), *numbers, statuses)
-    console.print(table)
+    console.print(_table(found, {"error inside": "error_inside", "error near edges": "error_near_edges"}))
     console.print(
         "each particle is left out and interpolated from the others: error over the root mean square of the pressure;"
         " noise: median of sqrt(sum Phi^2); gain: sum |Phi|"
     )
+    if wall_points is not None:
+        rows = {label: figures["walls"] for label, figures in found.items()}
+        console.print(f"\n{next(iter(rows.values()))['wall_particles']:,} wall particles")
+        console.print(_table(rows, {"error": "error", "mean error": "mean_error"}))
+        console.print("the pressure there, with that of the water in between, less the stored one, in the same unit")
+
+
+def _table(rows: Mapping[str, Mapping[str, Any]], errors: Mapping[str, str]) -> Table:
+    table = Table(box=None, pad_edge=False)
+    for heading in ("method", *errors, "noise", "largest gain", "statuses"):
+        table.add_column(heading)
+    for label, figures in rows.items():
+        statuses = ", ".join(f"{name} {100 * share:.2f} %" for name, share in figures["statuses"].items() if share)
+        numbers = (f"{figures[name]:.3g}" for name in (*errors.values(), "noise", "largest_gain"))
+        table.add_row(Text(label), *numbers, statuses)
+    return table
+
+
+def _figures_at_walls(judgement: Judgement) -> dict[str, Any]:
+    """Return the figures of a row at walls: those of wall particles that are not DRY but for the statuses."""
+    wet = judgement.neighbours > 0
+    return {
+        "wall_particles": len(wet),
+        "error": judgement.distance(wet),
+        "mean_error": float(judgement.error[wet].mean() / judgement.scale) if wet.any() else float("nan"),
+        "noise": float(np.median(judgement.noise[wet])) if wet.any() else float("nan"),
+        "largest_gain": float(judgement.gain.max()),
+        "statuses": {status.name: judgement.share(status) for status in Status},
+    }
 
 
 def _figures(judgement: Judgement) -> dict[str, Any]:

@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from sphframe.testing.evaluation import Outcome, evaluate
     from sphframe.testing.ghost_response import GhostResponse, ghost_responses
-    from sphframe.testing.judgement import Judgement, judge
+    from sphframe.testing.judgement import Judgement, judge, judge_walls
     from sphframe.testing.neighbourhoods import FAMILIES, Cloud, catalogue
     from sphframe.testing.order import Fit, OrderReport, measure_order, verify_order
-    from sphframe.testing.particle_files import Particles, read_particles
+    from sphframe.testing.particle_files import Particles, WallPoints, read_particles, read_walls
     from sphframe.testing.proof import BrokenPromiseError
     from sphframe.testing.strategies import (
         basins,
@@ -39,8 +39,8 @@ _HOMES = {
     "sphframe.testing.neighbourhoods": ["FAMILIES", "Cloud", "catalogue"],
     "sphframe.testing.evaluation": ["Outcome", "evaluate"],
     "sphframe.testing.ghost_response": ["GhostResponse", "ghost_responses"],
-    "sphframe.testing.judgement": ["Judgement", "judge"],
-    "sphframe.testing.particle_files": ["Particles", "read_particles"],
+    "sphframe.testing.judgement": ["Judgement", "judge", "judge_walls"],
+    "sphframe.testing.particle_files": ["Particles", "WallPoints", "read_particles", "read_walls"],
     "sphframe.testing.order": ["Fit", "OrderReport", "measure_order", "verify_order"],
     "sphframe.testing.proof": ["BrokenPromiseError"],
     "sphframe.testing.strategies": [
@@ -70,6 +70,7 @@ __all__ = [
     "Outcome",
     "Particles",
     "Report",
+    "WallPoints",
     "WallResiduals",
     "basins",
     "body_states",
@@ -80,12 +81,14 @@ __all__ = [
     "flattened_clouds",
     "ghost_responses",
     "judge",
+    "judge_walls",
     "kernel_arguments",
     "measure_order",
     "oscillators",
     "parametrize_with_checks",
     "poiseuille_error",
     "read_particles",
+    "read_walls",
     "states",
     "verify",
     "verify_order",

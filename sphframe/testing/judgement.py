@@ -1,7 +1,9 @@
-"""Testing: a method judged on the particles of a file, each of which it interpolates from the others.
+"""Testing: a method judged on the particles of a file, and at the wall particles that belong to them.
 
 A particle is left out, the method computes weights at its position from its neighbours, and the pressure
-sum_j Phi_j p_j is compared with the stored one. No walls are needed, so that particles of any program will do.
+sum_j Phi_j p_j is compared with the stored one. No walls are needed, so that particles of any program will do. At a
+wall particle x_G the pressure is sum_j Phi_j [p_j + b.(x_G - x_j)], b = rho g, with weights at its mirror point or, for
+methods that are evaluated there and where the file has no mirror points, at the wall particle itself.
 """
 
 from dataclasses import dataclass
@@ -9,11 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from sphframe.arrays import Array, BoolArray, IntArray
-from sphframe.interfaces import BoundaryInterpolator, Kernel, Status
+from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint, Kernel, Status
 from sphframe.registry import create
 from sphframe.testing.evaluation import evaluator
 from sphframe.testing.neighbourhoods import Cloud
-from sphframe.testing.particle_files import Particles
+from sphframe.testing.particle_files import Particles, WallPoints
 
 FULL = 0.9
 """filling sum_j V_j W_j, over the largest one, above which a particle is in the midst of the fluid"""
@@ -21,7 +23,7 @@ FULL = 0.9
 
 @dataclass(frozen=True)
 class Judgement:
-    """Results of a method for m particles that were left out.
+    """Results of a method for m particles that were left out, or m wall particles.
 
     Attributes
     ----------
@@ -38,7 +40,7 @@ class Judgement:
     error
         (m,), interpolated less stored pressure, Pa.
     inside
-        (m,), whether the particle is in the midst of the fluid.
+        (m,), whether the place is in the midst of the fluid.
     scale
         root mean square of the stored pressures, Pa.
     """
@@ -74,30 +76,77 @@ def judge(
 
     ``smoothing_length`` h, m, is by default that of :meth:`Particles.length`.
     """
+    numbers = _evenly(len(particles.position), sample)
+    places = particles.position[numbers]
+    return _judged(method, particles, kernel, smoothing_length, places, particles.pressure[numbers], left_out=numbers)
+
+
+def judge_walls(
+    method: BoundaryInterpolator,
+    particles: Particles,
+    walls: WallPoints,
+    *,
+    kernel: str | Kernel = "gaussian",
+    smoothing_length: float | None = None,
+    sample: int = 2000,
+) -> Judgement:
+    """Judge ``method`` at up to ``sample`` of the wall particles, evenly chosen, as :func:`judge` does.
+
+    The status is DRY where no particle is within the support of the place at which the method is evaluated.
+    """
+    numbers = _evenly(len(walls.position), sample)
+    ghost, mirror, where = walls.position[numbers], walls.mirror[numbers], method.traits.evaluation_point
+    lift = ghost - mirror if where.takes_lift else None
+    if lift is not None and where is EvaluationPoint.DIRECTED:
+        lift = lift / np.maximum(np.linalg.norm(lift, axis=1, keepdims=True), 1e-300)
+    places = ghost if where.at_ghost else mirror
+    values = walls.pressure[numbers]
+    return _judged(
+        method, particles, kernel, smoothing_length, places, values, lift=lift, ghost=ghost, force=walls.force
+    )
+
+
+def _evenly(count: int, sample: int) -> IntArray:
+    return np.unique(np.linspace(0, count - 1, min(sample, count)).astype(int))
+
+
+def _judged(
+    method: BoundaryInterpolator,
+    particles: Particles,
+    kernel: str | Kernel,
+    smoothing_length: float | None,
+    places: Array,
+    stored: Array,
+    *,
+    left_out: IntArray | None = None,
+    lift: Array | None = None,
+    ghost: Array | None = None,
+    force: Array | None = None,
+) -> Judgement:
     from scipy.spatial import cKDTree
 
     chosen = create("kernels", kernel) if isinstance(kernel, str) else kernel
     h = particles.length(smoothing_length)
     dim, support = particles.position.shape[1], chosen.support * h
     run, value = evaluator(method, dim, chosen), chosen.value_function()
-    tree, count = cKDTree(particles.position), len(particles.position)
-    numbers = np.unique(np.linspace(0, count - 1, min(sample, count)).astype(int))
+    tree = cKDTree(particles.position)
     rows = []
-    for number in numbers:
-        near = np.array([j for j in tree.query_ball_point(particles.position[number], support) if j != number], int)
-        offsets = particles.position[near] - particles.position[number]
+    for k, place in enumerate(places):
+        near = np.array([j for j in tree.query_ball_point(place, support) if left_out is None or j != left_out[k]], int)
+        offsets = particles.position[near] - place
         inside = np.linalg.norm(offsets, axis=1) < support if len(near) else np.zeros(0, bool)
         near, offsets = near[inside], offsets[inside]
         if not len(near):
-            rows.append((int(Status.DRY), 0, 0.0, 0.0, 0.0, -particles.pressure[number], 0.0))
+            rows.append((int(Status.DRY), 0, 0.0, 0.0, 0.0, -stored[k], 0.0))
             continue
-        cloud = Cloud(offsets, particles.volume[near], support)
+        cloud = Cloud(offsets, particles.volume[near], support, None if lift is None else lift[k])
         outcome = run(cloud)
-        phi = outcome.weights
+        phi, pressure = outcome.weights, particles.pressure[near]
+        if ghost is not None and force is not None:
+            pressure = pressure + (ghost[k] - particles.position[near]) @ force
         full = float(np.dot([value(r / h) for r in cloud.distances.tolist()], cloud.volumes))
-        missed = float(phi @ particles.pressure[near]) - particles.pressure[number]
         sizes = float(np.abs(phi).sum()), float(np.sqrt(np.sum(phi**2)))
-        rows.append((outcome.status, len(near), float(phi.sum()), *sizes, missed, full))
+        rows.append((outcome.status, len(near), float(phi.sum()), *sizes, float(phi @ pressure) - stored[k], full))
     status, near_by, total, gain, noise, error, filling = np.array(rows).T
     return Judgement(
         status.astype(int),
