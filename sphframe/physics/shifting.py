@@ -34,8 +34,10 @@ doi:10.1016/j.cpc.2017.11.016.
 import math
 
 import numba
+import numpy as np
 
-from sphframe.compiled import LANES, offset_between
+from sphframe.arrays import Array
+from sphframe.compiled import LANES, local_array, offset_between
 from sphframe.compiled.stand_ins import COLUMNS, DIM, GRADIENT, MASKED, PERIODIC, SUPPORT, VALUE
 from sphframe.neighbours.sight import WHOLE
 
@@ -70,34 +72,46 @@ def fluid_fillings(  # type: ignore[no-untyped-def]
     per_h2 = SUPPORT * SUPPORT / limit
     per_h = SUPPORT / parameters.support
     at_spacing = VALUE(parameters.spacing * per_h)
-    for i in numba.prange(eigenvalues.shape[0]):
-        c = i // LANES
-        xx = xy = yy = xz = yz = zz = 0.0
-        sx = sy = sz = cx = cy = cz = 0.0
+    n = eigenvalues.shape[0]
+    for c in numba.prange(fluid_counts.shape[0]):
+        xx, xy, yy = local_array(LANES), local_array(LANES), local_array(LANES)
+        xz, yz, zz = local_array(LANES), local_array(LANES), local_array(LANES)
+        sx, sy, sz = local_array(LANES), local_array(LANES), local_array(LANES)
+        cx, cy, cz = local_array(LANES), local_array(LANES), local_array(LANES)
+        for a in range(LANES):
+            xx[a] = xy[a] = yy[a] = xz[a] = yz[a] = zz[a] = 0.0
+            sx[a] = sy[a] = sz[a] = cx[a] = cy[a] = cz[a] = 0.0
         for k in range(fluid_counts[c] + ghost_counts[c]):
             j = lists[c, k]
-            dx, dy, dz, r2 = offset_between(rows, j, rows, i, DIM, PERIODIC, parameters)
-            if r2 < limit and r2 > 0.0:
-                weight = -parameters.gradient_scale * rows[j, COLUMNS.volume] * GRADIENT(r2 * per_h2)
-                if MASKED:
-                    weight *= PER_WHOLE * shares[c, k, i - c * LANES]
+            scale = -parameters.gradient_scale * rows[j, COLUMNS.volume]
+            for a in range(LANES):
+                i = min(c * LANES + a, n - 1)
+                dx, dy, dz, r2 = offset_between(rows, j, rows, i, DIM, PERIODIC, parameters)
+                weight = GRADIENT(r2 * per_h2) * scale
                 near = VALUE(math.sqrt(r2) * per_h) / at_spacing
                 crowded = weight * (1.0 + 0.2 * near * near * near * near)
-                sx += weight * dx
-                sy += weight * dy
-                sz += weight * dz
-                cx += crowded * dx
-                cy += crowded * dy
-                cz += crowded * dz
-                xx += weight * dx * dx
-                xy += weight * dx * dy
-                yy += weight * dy * dy
-                xz += weight * dx * dz
-                yz += weight * dy * dz
-                zz += weight * dz * dz
-        eigenvalues[i] = smallest_eigenvalue(xx, xy, yy, xz, yz, zz if DIM == 3 else -1.0)
-        sums[i, 0], sums[i, 1], sums[i, 2] = sx, sy, sz
-        crowding[i, 0], crowding[i, 1], crowding[i, 2] = cx, cy, cz
+                weight, crowded = (weight, crowded) if r2 < limit else (0.0, 0.0)
+                if MASKED:
+                    seen = PER_WHOLE * shares[c, k, a]
+                    weight, crowded = weight * seen, crowded * seen
+                sx[a] += weight * dx
+                sy[a] += weight * dy
+                cx[a] += crowded * dx
+                cy[a] += crowded * dy
+                xx[a] += weight * dx * dx
+                xy[a] += weight * dx * dy
+                yy[a] += weight * dy * dy
+                if DIM == 3:
+                    sz[a] += weight * dz
+                    cz[a] += crowded * dz
+                    xz[a] += weight * dx * dz
+                    yz[a] += weight * dy * dz
+                    zz[a] += weight * dz * dz
+        for a in range(min(LANES, n - c * LANES)):
+            i = c * LANES + a
+            eigenvalues[i] = smallest_eigenvalue(xx[a], xy[a], yy[a], xz[a], yz[a], zz[a] if DIM == 3 else -1.0)
+            sums[i, 0], sums[i, 1], sums[i, 2] = sx[a], sy[a], sz[a]
+            crowding[i, 0], crowding[i, 1], crowding[i, 2] = cx[a], cy[a], cz[a]
 
 
 def surface_normals(  # type: ignore[no-untyped-def]
@@ -128,19 +142,13 @@ def surface_normals(  # type: ignore[no-untyped-def]
         normals[i, 0], normals[i, 1], normals[i, 2] = scale * gx, scale * gy, scale * gz
 
 
-def shift_velocities(parameters, eigenvalues, crowding, normals, speed, coefficient):  # type: ignore[no-untyped-def]
-    """Turn ``crowding`` (n, 3) into the velocity S du, at most half of the largest ``speed`` (m/s) times S."""
-    for i in numba.prange(eigenvalues.shape[0]):
-        factor = -2.0 * parameters.smoothing_length * speed if eigenvalues[i] >= SPRAY else 0.0
-        nx, ny, nz = normals[i, 0], normals[i, 1], normals[i, 2]
-        u, v, w = factor * crowding[i, 0], factor * crowding[i, 1], factor * crowding[i, 2]
-        along = u * nx + v * ny + w * nz
-        u -= along * nx
-        v -= along * ny
-        w -= along * nz
-        size = math.sqrt(u * u + v * v + w * w)
-        scale = coefficient * min(1.0, 0.5 * speed / size) if size > 0.0 else 0.0
-        crowding[i, 0], crowding[i, 1], crowding[i, 2] = scale * u, scale * v, scale * w
+def shift_velocities(eigenvalues: Array, crowding: Array, normals: Array, length: float, speed: float) -> Array:
+    """Return du (n, 3), m/s, of the sums ``crowding`` (n, 3); ``length`` h, m, and the largest ``speed`` U, m/s."""
+    velocity = np.where(eigenvalues >= SPRAY, -2.0 * length * speed, 0.0)[:, None] * crowding
+    velocity -= np.einsum("ij,ij->i", velocity, normals)[:, None] * normals
+    size = np.linalg.norm(velocity, axis=1)
+    limited: Array = velocity * np.minimum(1.0, 0.5 * speed / np.maximum(size, 1e-300))[:, None]
+    return limited
 
 
 def transported(  # type: ignore[no-untyped-def]
@@ -150,54 +158,32 @@ def transported(  # type: ignore[no-untyped-def]
     n = shifts.shape[0]
     limit = parameters.support * parameters.support
     per_h2 = SUPPORT * SUPPORT / limit
-    for i in numba.prange(n):
-        c = i // LANES
-        density, u, v, w = rows[i, COLUMNS.density], rows[i, COLUMNS.u], rows[i, COLUMNS.v], rows[i, COLUMNS.w]
-        du = dv = dw = rate = 0.0
+    for c in numba.prange(fluid_counts.shape[0]):
+        du, dv, dw, rate = local_array(LANES), local_array(LANES), local_array(LANES), local_array(LANES)
+        for a in range(LANES):
+            du[a] = dv[a] = dw[a] = rate[a] = 0.0
         for k in range(fluid_counts[c] + ghost_counts[c]):
             j = lists[c, k]
-            dx, dy, dz, r2 = offset_between(rows, j, rows, i, DIM, PERIODIC, parameters)
-            if r2 < limit and r2 > 0.0:
-                weight = -parameters.gradient_scale * rows[j, COLUMNS.volume] * GRADIENT(r2 * per_h2)
+            scale = -parameters.gradient_scale * rows[j, COLUMNS.volume]
+            m, moves = (j, scale) if j < n else (0, 0.0)
+            sx, sy, sz = moves * shifts[m, 0], moves * shifts[m, 1], moves * shifts[m, 2]
+            density_j, uj, vj = rows[j, COLUMNS.density], rows[j, COLUMNS.u], rows[j, COLUMNS.v]
+            for a in range(LANES):
+                i = min(c * LANES + a, n - 1)
+                dx, dy, dz, r2 = offset_between(rows, j, rows, i, DIM, PERIODIC, parameters)
+                weight = GRADIENT(r2 * per_h2)
+                weight = weight if r2 < limit else 0.0
                 if MASKED:
-                    weight *= PER_WHOLE * shares[c, k, i - c * LANES]
-                own = weight * (shifts[i, 0] * dx + shifts[i, 1] * dy + shifts[i, 2] * dz)
-                other = 0.0
-                if j < n:
-                    other = weight * (shifts[j, 0] * dx + shifts[j, 1] * dy + shifts[j, 2] * dz)
-                rate += (rows[j, COLUMNS.density] - density) * other + 2.0 * density * own
-                du += (rows[j, COLUMNS.u] - u) * other + 2.0 * u * own
-                dv += (rows[j, COLUMNS.v] - v) * other + 2.0 * v * own
-                dw += (rows[j, COLUMNS.w] - w) * other + 2.0 * w * own
-        changes[i, 0], changes[i, 1], changes[i, 2], changes[i, 3] = du, dv, dw, rate
-
-
-def shift_particles(rows, shifts, changes, interval, factor):  # type: ignore[no-untyped-def]
-    """Move the fluid particles with ``shifts`` (n, 3) for half of ``interval``, s, and add ``factor`` of ``changes``.
-
-    The changes (n, 4) are those of the positions half way: their first order is off by a part that does not change its
-    sign, since shifting makes particles swing around the places where they are even.
-    """
-    half = 0.5 * interval
-    for i in numba.prange(shifts.shape[0]):
-        rows[i, 0] += half * shifts[i, 0]
-        rows[i, 1] += half * shifts[i, 1]
-        rows[i, COLUMNS.u] += factor * interval * changes[i, 0]
-        rows[i, COLUMNS.v] += factor * interval * changes[i, 1]
-        if DIM == 3:
-            rows[i, 2] += half * shifts[i, 2]
-            rows[i, COLUMNS.w] += factor * interval * changes[i, 2]
-        rows[i, COLUMNS.density] += factor * interval * changes[i, 3]
-
-
-def control_tension(rows, eigenvalues, sums, normals, rates):  # type: ignore[no-untyped-def]
-    """Add the control of the tensile instability to the accelerations in ``rates`` (n, 2 dim + 1)."""
-    for i in numba.prange(eigenvalues.shape[0]):
-        pressure = rows[i, COLUMNS.pressure]
-        near_surface = normals[i, 0] != 0.0 or normals[i, 1] != 0.0 or normals[i, 2] != 0.0
-        if pressure < 0.0 and not near_surface:
-            factor = 2.0 * pressure / rows[i, COLUMNS.density]
-            rates[i, COLUMNS.u] += factor * sums[i, 0]
-            rates[i, COLUMNS.v] += factor * sums[i, 1]
-            if DIM == 3:
-                rates[i, COLUMNS.w] += factor * sums[i, 2]
+                    weight *= PER_WHOLE * shares[c, k, a]
+                own = 2.0 * scale * weight * (shifts[i, 0] * dx + shifts[i, 1] * dy + shifts[i, 2] * dz)
+                other = weight * (sx * dx + sy * dy + sz * dz)
+                density, u, v = rows[i, COLUMNS.density], rows[i, COLUMNS.u], rows[i, COLUMNS.v]
+                rate[a] += (density_j - density) * other + density * own
+                du[a] += (uj - u) * other + u * own
+                dv[a] += (vj - v) * other + v * own
+                if DIM == 3:
+                    w = rows[i, COLUMNS.w]
+                    dw[a] += (rows[j, COLUMNS.w] - w) * other + w * own
+        for a in range(min(LANES, n - c * LANES)):
+            i = c * LANES + a
+            changes[i, 0], changes[i, 1], changes[i, 2], changes[i, 3] = du[a], dv[a], dw[a], rate[a]

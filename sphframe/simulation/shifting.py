@@ -11,15 +11,9 @@ from sphframe.compiled import specialise
 from sphframe.errors import InputError
 from sphframe.interfaces import WallGeometry, WallTreatment
 from sphframe.neighbours import NeighbourLists
+from sphframe.particles import Columns
 from sphframe.physics import LoopParameters
-from sphframe.physics.shifting import (
-    control_tension,
-    fluid_fillings,
-    shift_particles,
-    shift_velocities,
-    surface_normals,
-    transported,
-)
+from sphframe.physics.shifting import SURFACE, fluid_fillings, shift_velocities, surface_normals, transported
 
 
 class Shifting:
@@ -31,8 +25,7 @@ class Shifting:
     def __init__(self, parts: Mapping[str, Any], coefficient: float, *, tensile_control: bool) -> None:
         self.coefficient, self.tensile_control = coefficient, tensile_control
         self._fill, self._normals = specialise(fluid_fillings, parts), specialise(surface_normals, parts)
-        self._velocities, self._transport = specialise(shift_velocities, parts), specialise(transported, parts)
-        self._move, self._control = specialise(shift_particles, parts), specialise(control_tension, parts)
+        self._transport = specialise(transported, parts)
         self._found = _scratch(0)
 
     @classmethod
@@ -60,7 +53,9 @@ class Shifting:
         eigenvalues, sums, crowding, normals = self._found
         near = lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares
         self._fill(rows, *near, parameters, eigenvalues, sums, crowding)
-        self._normals(rows, lists.fluid, lists.fluid_counts, lists.shares, parameters, eigenvalues, normals)
+        normals[:] = 0.0
+        if np.any(eigenvalues < SURFACE):
+            self._normals(rows, lists.fluid, lists.fluid_counts, lists.shares, parameters, eigenvalues, normals)
         return self._found
 
     def shift(
@@ -78,20 +73,25 @@ class Shifting:
         """
         if self.coefficient > 0.0:
             eigenvalues, _, crowding, normals = self.find(rows, lists, parameters)
-            self._velocities(parameters, eigenvalues, crowding, normals, speed, self.coefficient)
+            n, columns, h = lists.fluid_count, Columns.of(lists.dim), parameters.smoothing_length
+            shifts = self.coefficient * shift_velocities(eigenvalues, crowding, normals, h, speed)
             if still is not None:
-                crowding[still] = 0.0
-            changes = np.zeros((lists.fluid_count, 4))
+                shifts[still] = 0.0
+            half, changes = 0.5 * interval * shifts[:, : lists.dim], np.zeros((n, 4))
+            rows[:n, columns.position] += half  # a first order would be off by a part that does not change its sign,
             near = lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares
-            self._move(rows, crowding, changes, interval, 0.0)
-            self._transport(rows, *near, parameters, crowding, changes)
-            self._move(rows, crowding, changes, interval, 1.0)
+            self._transport(rows, *near, parameters, shifts, changes)
+            rows[:n, columns.position] += half  # since particles swing around the places where they are even
+            rows[:n, columns.velocity] += interval * changes[:, : lists.dim]
+            rows[:n, columns.density] += interval * changes[:, 3]
 
     def control(self, rows: Array, lists: NeighbourLists, parameters: LoopParameters, rates: Array) -> None:
         """Add the control of the tensile instability to the accelerations in ``rates``."""
         if self.tensile_control:
-            eigenvalues, sums, _, normals = self.find(rows, lists, parameters)
-            self._control(rows, eigenvalues, sums, normals, rates)
+            _, sums, _, normals = self.find(rows, lists, parameters)
+            columns, fluid = Columns.of(lists.dim), rows[: lists.fluid_count]
+            pressure = np.where(normals.any(axis=1), 0.0, np.minimum(fluid[:, columns.pressure], 0.0))
+            rates[:, columns.velocity] += (2.0 * pressure / fluid[:, columns.density])[:, None] * sums[:, : lists.dim]
 
 
 def _scratch(count: int) -> tuple[Array, Array, Array, Array]:
