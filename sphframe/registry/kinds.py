@@ -84,6 +84,7 @@ DISTRIBUTIONS = {
             "column-impact",
             "couette",
             "cylinder-array",
+            "cylinder-in-channel",
             "dam-break-3d",
             "dam-break-impact",
             "drum",

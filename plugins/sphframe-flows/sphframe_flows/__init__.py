@@ -3,6 +3,7 @@
 from sphframe_flows.accelerated_tank import AcceleratedTank
 from sphframe_flows.channels import Couette, Poiseuille
 from sphframe_flows.cylinder_array import CylinderArray
+from sphframe_flows.cylinder_in_channel import CylinderInChannel
 from sphframe_flows.dam_break_3d import DamBreak3D
 from sphframe_flows.dam_break_impact import DamBreakImpact
 from sphframe_flows.drum import Drum
@@ -33,6 +34,7 @@ __all__ = [
     "ColumnImpact",
     "Couette",
     "CylinderArray",
+    "CylinderInChannel",
     "DamBreak3D",
     "DamBreakImpact",
     "Drum",

@@ -33,13 +33,17 @@ COARSE: dict[str, tuple[dict[str, Any], dict[str, float]]] = {
     "accelerated-tank": ({"particle_spacing": 0.03, "until": 0.3}, {"pressure": 0.02, "velocity": 0.01}),
     "dam-break-impact": ({"particle_spacing": 0.03}, {"pressure": 0.3, "P4": 0.25}),
     "oblique-jet": ({"length": 0.8}, {"force": 0.05, "split": 0.03}),
+    "cylinder-in-channel": (
+        {"channel_length": 0.6, "until": 1.2},
+        {"drag": 0.05, "lift": 0.03, "pressure_difference": 0.5},
+    ),
     "moving-square": ({"particle_spacing": 0.125, "until": 1.2}, {"start": 0.12, "drag": 0.4}),
     "taylor-green": ({"until": 0.5}, {"last_kinetic_energy": 0.03, "velocity": 0.05, "largest_hole": 0.2}),
 }
 """parameters of short runs, and limits of their errors"""
 
 
-LONG = {"moving-square"}
+LONG = {"cylinder-in-channel", "moving-square"}
 """runs that are compiled with options of their own"""
 
 

@@ -8,6 +8,7 @@ import xarray as xr
 from sphframe_flows import (
     Couette,
     CylinderArray,
+    CylinderInChannel,
     JetOnPlate,
     Oscillating,
     Poiseuille,
@@ -185,6 +186,39 @@ def test_drag_of_sparse_cylinders_is_that_of_the_series() -> None:
         series = -0.5 * math.log(share) - 0.738 + share - 0.887 * share**2 + 2.038 * share**3
         factor = case.body_force * case.distance**2 / (case.kinematic_viscosity * case.mean_velocity)
         assert factor == pytest.approx(4.0 * math.pi / series, rel=tolerance)
+
+
+def test_the_flow_around_a_cylinder_starts_without_divergence_and_at_rest_on_the_cylinder() -> None:
+    case, step = CylinderInChannel(), 1e-6
+    around = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
+    circle = np.column_stack([np.cos(around), np.sin(around)])
+    assert np.abs(case.initial_velocity([0.2, 0.2] + 0.05 * circle)).max() < 1e-12
+    points = np.vstack([[0.2, 0.2] + radius * circle for radius in (0.06, 0.1, 0.15, 0.19)])
+    slopes = [
+        (case.initial_velocity(points + step * axis) - case.initial_velocity(points - step * axis)) / (2.0 * step)
+        for axis in np.eye(2)
+    ]
+    assert np.allclose(slopes[0][:, 0] + slopes[1][:, 1], 0.0, atol=1e-7)
+    assert np.abs(slopes[0][:, 0]).max() > 1.0, "the parts of the divergence are not small"
+    y = np.linspace(0.0, 0.41, 83)
+    parabola = 4.0 * 0.3 * y * (0.41 - y) / 0.41**2
+    far = case.initial_velocity(np.column_stack([np.full_like(y, 1.0), y]))
+    assert np.allclose(far, np.column_stack([parabola, np.zeros_like(y)]), atol=1e-12)
+    assert np.trapezoid(parabola, y) == pytest.approx(0.41 * case.mean_velocity, rel=1e-3)
+
+
+def test_forces_on_the_cylinder_are_those_of_the_benchmark() -> None:
+    """Schaefer and Turek, 2D-1: coefficients 2 F / (rho U^2 D), and the pressure difference in their units."""
+    dataset = xr.Dataset(coords={"probe_time": [0.0, 1.0]})
+    exact = CylinderInChannel(reference_density=1.0).exact(dataset)
+    scale = 2.0 / (0.2**2 * 0.1)
+    assert exact["drag"].values * scale == pytest.approx(5.579535)
+    assert exact["lift"].values * scale == pytest.approx(0.010619)
+    assert exact["pressure_difference"].values == pytest.approx(0.117520)
+    assert CylinderInChannel().kinematic_viscosity == pytest.approx(1e-3)
+    assert not CylinderInChannel(reynolds_number=40.0).exact(dataset)
+    with pytest.raises(InputError, match="between bed, lid, inflow and outflow"):
+        CylinderInChannel(centre_height=0.04).scene()
 
 
 def test_channels_and_vortices_refuse_contradictions() -> None:
