@@ -9,7 +9,7 @@ from sphframe.arrays import Array
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.conjugate import make_conjugate
 from sphframe.boundary.ghosts import Scratch, fill_ghosts
-from sphframe.boundary.images import Images, make_images
+from sphframe.boundary.images import Images, make_images, most_images
 from sphframe.boundary.trial import weights_functions
 from sphframe.compiled import specialise
 from sphframe.interfaces import (
@@ -101,7 +101,8 @@ class ImageFilling:
         self, parts: Mapping[str, Any], walls: WallParts, *, tension: Tension = "bounded", lowest_pressure: float = 0.0
     ) -> None:
         self._dim: int = parts["DIM"]
-        bounds = {"BOUNDED": tension != "free", "LOWEST": lowest_pressure if tension == "bounded" else 0.0}
+        lowest = lowest_pressure if tension == "bounded" else 0.0
+        bounds = {"SLOTS": most_images(self._dim), "BOUNDED": tension != "free", "LOWEST": lowest}
         self._make = specialise(make_images, {**parts, **bounds, "ASSIGN": walls.assign or _at_rest})
 
     def __call__(self, rows: Array, lists: NeighbourLists, boundary: Boundary, parameters: LoopParameters) -> None:

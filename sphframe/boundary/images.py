@@ -6,8 +6,9 @@ A ghost stands for the reflection S of its face, edge or corner about its foot c
 
 where m is the point of the plane, line or corner next to the particle. An image counts where m lies on the wall itself:
 its own foot is the nearest one, and at most 0.8 dx away. Of several images by nearly the same reflection, as behind
-curved walls, the one whose foot is nearest to m counts. Behind edges and corners of walls at right angles, particles
-also have images of images, since S is the product of the reflections there.
+curved walls, the one whose foot is nearest to m counts; those 2 R apart are images in opposite corners. Behind edges
+and corners of walls at right angles, particles also have images of images, since S is the product of the reflections
+there.
 
 The neighbours of a particle's images are among its own: two particles before a wall are nearer to each other than each
 is to the image of the other. The loops over walls therefore run over the lists of fluid neighbours.
@@ -20,13 +21,11 @@ import numpy as np
 
 from sphframe.arrays import Array, IntArray
 from sphframe.compiled import LANES, local_array
-from sphframe.compiled.stand_ins import ASSIGN, COLUMNS, DENSITY, DIM
+from sphframe.compiled.stand_ins import ASSIGN, COLUMNS, DENSITY, DIM, SLOTS
 from sphframe.interfaces import Interpolated, WallPoint
 from sphframe.interfaces.traits import OK
 from sphframe.particles import Columns
 
-SLOTS = 8
-"""most images of a particle: in three faces, three edges and a corner of a box there are seven"""
 _FARTHEST = 0.8
 """largest distance of m from the nearest foot, dx"""
 
@@ -36,10 +35,22 @@ LOWEST = 0.0
 """lowest pressure of an image where it is BOUNDED, Pa"""
 
 
+def most_images(dim: int) -> int:
+    """Return how many images a particle can have: in the faces, edges and corners of a box less wide than the support.
+
+    Examples
+    --------
+    >>> most_images(2), most_images(3)
+    (8, 26)
+    """
+    return int(3**dim) - 1
+
+
 class Images(NamedTuple):
     """Images of fluid particles: ``counts`` (n,) of each; those of particle j are SLOTS j, SLOTS j + 1, ..
 
-    ``rows`` (SLOTS n, width) are packed as those of particles; ``ghost`` (SLOTS n,) is that whose reflection is used.
+    SLOTS: :func:`most_images`. ``rows`` (SLOTS n, width) are packed as those of particles; ``ghost`` (SLOTS n,) is that
+    whose reflection is used.
     """
 
     rows: Array
@@ -49,7 +60,7 @@ class Images(NamedTuple):
     @classmethod
     def of(cls, particles: int, dim: int) -> "Images":
         """Return memory for the images of a number of ``particles``."""
-        size = SLOTS * particles
+        size = most_images(dim) * particles
         return cls(np.empty((size, Columns.of(dim).width)), np.zeros(particles, np.int64), np.zeros(size, np.int64))
 
 
@@ -72,15 +83,6 @@ def _is_face(walls, g, dim):  # type: ignore[no-untyped-def]
     for d in range(dim):
         trace += walls.reflection[g, d, d]
     return trace > dim - 3.0
-
-
-@numba.njit(inline="always")
-def _foot_distance2(rows, i, image_rows, place, feet, g, dim):  # type: ignore[no-untyped-def]
-    """Return the squared distance of the point m of an image of particle ``i`` from the foot of ghost ``g``."""
-    distance2 = 0.0
-    for d in range(dim):
-        distance2 += (0.5 * (image_rows[place, d] + rows[i, d]) - feet[g, d]) ** 2
-    return distance2
 
 
 def make_images(  # type: ignore[no-untyped-def]
@@ -118,7 +120,10 @@ def make_images(  # type: ignore[no-untyped-def]
                     continue
                 place = count
                 for s in range(count):
-                    if _alike(walls, g, image_ghosts[SLOTS * i + s], DIM):
+                    apart = 0.0
+                    for d in range(DIM):
+                        apart += (rows[i, d] + lift[d] - image_rows[SLOTS * i + s, d]) ** 2
+                    if apart < deepest and _alike(walls, g, image_ghosts[SLOTS * i + s], DIM):
                         place = s if miss < misses[s] - equal else SLOTS
                 if place < SLOTS:
                     misses[place] = miss
@@ -135,7 +140,9 @@ def make_images(  # type: ignore[no-untyped-def]
                     for k in range(first, last):
                         o = lists[c, k] - n
                         if _is_face(walls, o, DIM) and not _alike(walls, g, o, DIM):
-                            nearer = _foot_distance2(rows, i, image_rows, SLOTS * i + s, feet, o, DIM)
+                            nearer = 0.0
+                            for d in range(DIM):
+                                nearer += (0.5 * (image_rows[SLOTS * i + s, d] + rows[i, d]) - feet[o, d]) ** 2
                             on_wall = on_wall and nearer > misses[s] - equal
                 if not on_wall:
                     continue

@@ -46,6 +46,8 @@ PERIODIC = False
 """whether directions repeat themselves, so that distances are those of the nearest copies"""
 MASKED = False
 """whether thin walls hide neighbours, wholly or in part (:mod:`sphframe.neighbours.sight`)"""
+SLOTS = 8
+"""most images of a particle (:mod:`sphframe.boundary.images`)"""
 WEIGHTS: WeightsFunction = _not_bound
 """weights of the interpolation method at one evaluation point"""
 FALLBACK: WeightsFunction = _not_bound

@@ -15,7 +15,7 @@ Departs from the paper: its Eq. 29 takes a pressure difference, which is zero on
 import numba
 
 from sphframe.compiled import LANES, offset_between
-from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, MORRIS, PERIODIC, SEEN, SUPPORT
+from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, MORRIS, PERIODIC, SEEN, SLOTS, SUPPORT
 from sphframe.interfaces import FluidSide, Separation
 from sphframe.neighbours.sight import WHOLE
 from sphframe.physics.momentum import pair_stress
@@ -27,8 +27,7 @@ AS_ASSIGNED = True
 FORCES = False
 """whether the treatment gives the force"""
 IMAGES = False
-SLOTS = 1
-"""whether images of the fluid take the place of ghosts, and the most images of a particle"""
+"""whether images of the fluid take the place of ghosts"""
 
 PER_WHOLE = 1.0 / WHOLE
 

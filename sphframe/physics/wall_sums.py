@@ -8,7 +8,7 @@ force of its own adds its acceleration instead, and has no part in the density r
 import numba
 
 from sphframe.compiled import LANES, fma, local_array, nearest
-from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, MORRIS, PERIODIC, SEEN, SUPPORT
+from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, MORRIS, PERIODIC, SEEN, SLOTS, SUPPORT
 from sphframe.interfaces import FluidSide, Separation
 from sphframe.neighbours.sight import WHOLE
 from sphframe.physics.momentum import pair_stress
@@ -21,8 +21,6 @@ CONTINUITY = True
 FORCES = False
 IMAGES = False
 """whether images of the fluid take the place of ghosts; then the loop runs over the lists of the fluid"""
-SLOTS = 1
-"""most images of a particle"""
 
 
 def wall_sums(  # type: ignore[no-untyped-def]

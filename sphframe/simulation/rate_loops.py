@@ -6,7 +6,7 @@ from typing import Any
 from sphframe.arrays import Array, IntArray
 from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.corners import Shares
-from sphframe.boundary.images import SLOTS
+from sphframe.boundary.images import most_images
 from sphframe.compiled import specialise
 from sphframe.interfaces import CompiledKernel, WallParts
 from sphframe.neighbours import NeighbourLists
@@ -50,7 +50,7 @@ class RateLoops:
             "AS_ASSIGNED": as_assigned,
             "FORCES": walls.force is not None,
             "IMAGES": images,
-            "SLOTS": SLOTS,
+            "SLOTS": most_images(parts["DIM"]),
         }
         if not as_assigned:
             bound["KINDS"] = 1

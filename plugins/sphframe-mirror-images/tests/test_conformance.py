@@ -18,9 +18,9 @@ def test_has_its_traits(treatment, check):
     check(treatment)
 
 
-def box(dim, **parameters):
-    """A closed box of water, seven spacings wide, whose particles have been moved at random."""
-    size = (7 * SPACING,) * dim
+def box(dim, across, **parameters):
+    """A closed box of water, that many spacings wide, whose particles have been moved at random."""
+    size = (across * SPACING,) * dim
     shape = {"shape": "box", "lower": (0.0,) * dim, "upper": size}
     simulation = Simulation(
         Custom(
@@ -43,14 +43,19 @@ def box(dim, **parameters):
     return simulation
 
 
-@pytest.mark.parametrize(("dim", "slip"), [(2, "free"), (2, "no"), (3, "free")])
-def test_rates_in_a_box_are_those_of_the_cloud_repeated_by_reflection(dim, slip):
-    """The cloud is repeated in each direction, once on either side; a fluid particle sees all of it as fluid."""
-    simulation = box(dim, slip=slip)
+@pytest.mark.parametrize(
+    ("dim", "slip", "across"), [(2, "free", 7), (2, "no", 7), (3, "free", 7), (2, "free", 4), (3, "no", 4)]
+)
+def test_rates_in_a_box_are_those_of_the_cloud_repeated_by_reflection(dim, slip, across):
+    """The cloud is repeated in each direction, once on either side; a fluid particle sees all of it as fluid.
+
+    The support is 2.6 spacings: in a box of four, particles in the middle have images in all walls.
+    """
+    simulation = box(dim, across, slip=slip)
     c, n = simulation.columns, simulation.fluid_count
     rows, rates, parameters = simulation.system.rows[:n], simulation.system.rates, simulation.system.parameters
     x, u, p, volume, density = (rows[:, k] for k in (c.position, c.velocity, c.pressure, c.volume, c.density))
-    h, length = parameters.smoothing_length, 7 * SPACING
+    h, length = parameters.smoothing_length, across * SPACING
     compression, force = np.zeros(n), np.zeros((n, dim))
     for copy in itertools.product((-1, 0, 1), repeat=dim):
         reversed_ = np.array(copy) != 0
