@@ -45,6 +45,7 @@ def measure_walls(particles: int, repeats: int, tell: Callable[[str, float | Non
             state = {**simulation.system.state(), **{name: developed[name] for name in _OF_FLUID}}
             state["rows"][:n] = developed["rows"][:n]
             simulation.system.restore(state)
+            simulation.system.find_neighbours()  # with an order of particles of its own
             simulation.system.evaluate(flow.time)
             simulations[entry.name] = simulation
     rates = {name: lambda system=s.system: system.evaluate(flow.time) for name, s in simulations.items()}
