@@ -57,11 +57,14 @@ def specialise(
     return _loops[key]
 
 
-def compile_part(function: F) -> F:
-    """Compile one part for use inside loops; a function with the same fingerprint is compiled once per process."""
+def compile_part(function: F, *, inlined: bool = False) -> F:
+    """Compile one part for use inside loops; a function with the same fingerprint is compiled once per process.
+
+    A loop into which it is ``inlined`` leaves out what it does not use of the results.
+    """
     if isinstance(function, Dispatcher) or numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
         return function
-    return cast(F, _compiled_once(function, {"error_model": "numpy"}))
+    return cast(F, _compiled_once(function, {"error_model": "numpy", **({"forceinline": True} if inlined else {})}))
 
 
 def _compiled_once(function: Any, options: dict[str, Any]) -> Any:
@@ -71,7 +74,7 @@ def _compiled_once(function: Any, options: dict[str, Any]) -> Any:
     Without the hash in the name, a loop from the cache on disk may contain a function of the same name with other
     closure values, which would then run in its place.
     """
-    key = fingerprint(function)
+    key = fingerprint(function) + ("i" if options.get("forceinline") else "")
     if key not in _parts:
         copy = _rebind(function, {})
         copy.__qualname__ = f"{copy.__qualname__}_{key}"

@@ -25,5 +25,5 @@ def compiled_kernel(kernel: Kernel, dim: int) -> CompiledKernel:
         kernel.support,
         kernel.normalisation(dim),
         compile_part(checked_scalar(kernel, "gradient_of_square_function", of_square, ("s",), middle)),
-        compile_part(kernel.edge_integrals_function()) if dim == 2 else None,
+        compile_part(kernel.edge_integrals_function(), inlined=True) if dim == 2 else None,
     )

@@ -44,8 +44,8 @@ class NeighbourLists:
     width
         width of the rows of the cell grid, m: the edge of the cube that a cluster should fill.
     fluid
-        (clusters, capacity) uint32; row c holds ``fluid_counts[c]`` fluid neighbours, then ``ghost_counts[c]``
-        ghosts, as indices of rows.
+        (clusters, capacity) uint32; row c holds ``fluid_counts[c]`` fluid neighbours, then ``ghost_counts[c]`` ghosts,
+        as indices of rows. Ghosts that stand for edges are listed to ``half_edge``, m, beyond the radius.
     near
         (k,) the ghosts that are in a list or may have fluid near their evaluation point; ``left`` (m,) those that were
         when the lists were last built, and are no longer, until they have been filled without neighbours.
@@ -73,7 +73,9 @@ class NeighbourLists:
         periods: Periods | None = None,
         *,
         walls_move: bool = True,
+        half_edge: float = 0.0,
     ) -> None:
+        self.half_edge = half_edge
         self.sight = sight
         self.walls_move = walls_move
         self.periods = Periods.none(dim) if periods is None else periods
@@ -84,7 +86,8 @@ class NeighbourLists:
         self.support = support
         self.skin = skin
         self._narrow = np.full(3, np.inf)
-        self._narrow[:dim][self.periods.repeats] = self.periods.length[self.periods.repeats] - 2.0 * self.radius
+        narrow = self.periods.length - 2.0 * (self.radius + half_edge)
+        np.copyto(self._narrow[:dim], narrow, where=self.periods.repeats)
         self.cluster = cluster
         self.width = 0.5 * self.radius if width is None else width
         self.fluid_count = fluid_count
@@ -115,7 +118,7 @@ class NeighbourLists:
         """Return lists of the same kind for another number of fluid particles, not yet built."""
         lists = NeighbourLists(
             self.dim, fluid_count, self.ghost_count, self.support, self.skin, self.cluster, self.width, self.sight,
-            self.periods, walls_move=self.walls_move,
+            self.periods, walls_move=self.walls_move, half_edge=self.half_edge,
         )  # fmt: skip
         lists._is_near = self._is_near
         return lists
@@ -134,9 +137,8 @@ class NeighbourLists:
         periods = self.periods
         np.copyto(self._lower, periods.lower, where=periods.repeats)
         np.copyto(self._upper, periods.lower + periods.length, where=periods.repeats)
-        self._grid = grid_around(
-            self._lower, self._upper, self.width, 1.1 * self.radius
-        )  # includes all ghosts within reach
+        margin = 1.1 * (self.radius + self.half_edge)  # includes all ghosts within reach
+        self._grid = grid_around(self._lower, self._upper, self.width, margin)
         if self._tallies.shape[1] != self._grid.size:
             self._tallies = np.zeros((_PARTS, self._grid.size), np.int64)
             self._starts = np.zeros(self._grid.size + 1, np.int64)
@@ -150,7 +152,7 @@ class NeighbourLists:
         sort_by_cell(rows[n:], self.dim, grid, self._ghost_cells, self._tallies, self._ghost_starts, self._ghost_order)
         while True:
             longest = _list_particles(
-                rows, n, self.cluster, self.dim, self.radius, grid, self._starts, _NO_ORDER,
+                rows, n, self.cluster, self.dim, self.radius, self.half_edge, grid, self._starts, _NO_ORDER,
                 self._ghost_starts, self._ghost_order, self._shifts, self._narrow,
                 self.fluid, self.fluid_counts, self.ghost_counts,
             )  # fmt: skip
@@ -473,7 +475,7 @@ def _gather(  # type: ignore[no-untyped-def]
 
 @numba.njit(parallel=True, cache=True, error_model="numpy")
 def _list_particles(  # type: ignore[no-untyped-def]
-    rows, n, cluster, dim, radius, grid, starts, no_order, ghost_starts, ghost_order, shifts, narrow,
+    rows, n, cluster, dim, radius, half_edge, grid, starts, no_order, ghost_starts, ghost_order, shifts, narrow,
     lists, counts, ghost_counts,
 ):  # fmt: skip
     """List the neighbours of each cluster; returns the longest list, which must stay below the capacity.
@@ -504,8 +506,8 @@ def _list_particles(  # type: ignore[no-untyped-def]
         )  # fmt: skip
         counts[c] = found
         found = _gather(
-            rows, dim, box, radius, grid, ghost_starts, ghost_order, n, shifts, first, last, selected, repeated,
-            cluster == 1, members, found,
+            rows, dim, box, radius + half_edge, grid, ghost_starts, ghost_order, n, shifts, first, last, selected,
+            repeated, cluster == 1, members, found,
         )  # fmt: skip
         ghost_counts[c] = found - counts[c]
         longest = max(longest, found)

@@ -28,8 +28,9 @@ _LEAST = 0.05
 
 
 @numba.njit(inline="always")
-def _edge(rows, i, j, walls, g, parameters, columns, integrals, sigma, h, periodic):  # type: ignore[no-untyped-def]
+def _edge(rows, i, j, walls, g, parameters, integrals, sigma, periodic):  # type: ignore[no-untyped-def]
     """Return the :class:`Edge` of wall particle ``g`` in row ``j``, as particle ``i`` sees it."""
+    h = parameters.smoothing_length
     nx, ny = walls.normal[g, 0], walls.normal[g, 1]
     dx, dy = rows[j, 0] - rows[i, 0], rows[j, 1] - rows[i, 1]
     if periodic:
@@ -46,7 +47,6 @@ def surface_sums(  # type: ignore[no-untyped-def]
 ):
     """Add force and divergence of the edges to ``rates`` (n, 5); all arguments as in :func:`wall_sums`."""
     n = rates.shape[0]
-    h = parameters.smoothing_length
     for c in numba.prange(fluid_counts.shape[0]):
         if ghost_counts[c] == 0:
             continue
@@ -59,7 +59,7 @@ def surface_sums(  # type: ignore[no-untyped-def]
             solid = 0.0
             for k in range(fluid_counts[c], fluid_counts[c] + ghost_counts[c]):
                 j = lists[c, k]
-                edge = _edge(rows, i, j, walls, j - n, parameters, COLUMNS, EDGE_INTEGRALS, SIGMA, h, PERIODIC)
+                edge = _edge(rows, i, j, walls, j - n, parameters, EDGE_INTEGRALS, SIGMA, PERIODIC)
                 if edge.weight == 0.0:
                     continue  # out of reach
                 wall = wall_side(rows, j, walls, j - n, COLUMNS)
@@ -84,7 +84,6 @@ def surface_reaction(  # type: ignore[no-untyped-def]
 ):  # fmt: skip
     """Write force and moment of each wall to ``loads``; all arguments as in :func:`wall_reaction`."""
     chunks = partial.shape[0]
-    h = parameters.smoothing_length
     for chunk in numba.prange(chunks):
         partial[chunk] = 0.0
         for i in range(chunk * fluid_count // chunks, (chunk + 1) * fluid_count // chunks):
@@ -98,15 +97,13 @@ def surface_reaction(  # type: ignore[no-untyped-def]
                 solid = 0.0
                 for k in range(first, last):
                     j = lists[c, k]
-                    edge = _edge(
-                        rows, i, j, walls, j - fluid_count, parameters, COLUMNS, EDGE_INTEGRALS, SIGMA, h, PERIODIC
-                    )
-                    solid += edge.solid
+                    g = j - fluid_count
+                    solid += _edge(rows, i, j, walls, g, parameters, EDGE_INTEGRALS, SIGMA, PERIODIC).solid
                 volume /= max(1.0 - solid, _LEAST)
             for k in range(first, last):
                 j = lists[c, k]
                 g = j - fluid_count
-                edge = _edge(rows, i, j, walls, g, parameters, COLUMNS, EDGE_INTEGRALS, SIGMA, h, PERIODIC)
+                edge = _edge(rows, i, j, walls, g, parameters, EDGE_INTEGRALS, SIGMA, PERIODIC)
                 ex, ey, _ = SURFACE(fluid, wall_side(rows, j, walls, g, COLUMNS), edge, parameters)
                 own = ghost_walls[g]
                 add_load(partial[chunk, own], rows[i], centres[own], -volume * ex, -volume * ey, 0.0)

@@ -94,18 +94,19 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     if components.wall_treatment.geometry is not WallGeometry.ROW:
         check_filling(start.filling, scene.walls, refuse=case.guards.filling == "stop")
     boundary, position, members = start.boundary, start.position, start.region
-    half_edge = 0.5 * components.wall_treatment.row_spacing * spacing
+    half_edge = 0.0 if components.walls.surface is None else 0.5 * components.wall_treatment.row_spacing * spacing
     lists = NeighbourLists(
         dim,
         len(position),
         boundary.count,
-        parameters.support if components.walls.surface is None else parameters.support + half_edge,
+        parameters.support,
         SKIN * parameters.support,
         cluster=LANES,
         width=0.75 * LANES ** (1.0 / dim) * spacing,
         sight=boundary.sight,
         periods=boundary.periods,
         walls_move=bool(boundary.bodies),
+        half_edge=half_edge,
     )
     pressure = _initial_pressure(case, scene, components, parameters, boundary, position, members)
     rows = _initial_rows(position, start.volume, pressure, boundary, components, parameters)

@@ -25,14 +25,19 @@ def near_point(lists, ghost):
     scale=st.sampled_from([1e-6, 1.0, 1e3]),
     stretch=st.floats(0.05, 20.0),
     cluster=st.sampled_from([1, 2, 4, 7]),
+    half_edge=st.sampled_from([0.0, 0.1]),
 )
-def test_lists_hold_the_pairs_within_the_radius(dim, seed, fluid, ghosts, scale, stretch, cluster):
+def test_lists_hold_the_pairs_within_the_radius(dim, seed, fluid, ghosts, scale, stretch, cluster, half_edge):
     random = np.random.default_rng(seed)
     columns = Columns.of(dim)
     rows = columns.zeros(fluid + ghosts)
     rows[:, columns.position] = random.uniform(-1.0, 1.0, (fluid + ghosts, dim)) * [stretch, *[1.0] * (dim - 1)] * scale
     points = random.uniform(-1.5, 1.5, (ghosts, dim)) * scale
-    lists = NeighbourLists(dim, fluid, ghosts, support=0.4 * scale, skin=0.05 * scale, cluster=cluster)
+    lists = NeighbourLists(
+        dim, fluid, ghosts, support=0.4 * scale, skin=0.05 * scale, cluster=cluster, half_edge=half_edge * scale
+    )
+    radius = np.full(fluid + ghosts, lists.radius)
+    radius[fluid:] += half_edge * scale
     order = lists.sort(rows)
     assert sorted(order) == list(range(fluid))
     rows[:fluid] = rows[:fluid][order]
@@ -40,9 +45,10 @@ def test_lists_hold_the_pairs_within_the_radius(dim, seed, fluid, ghosts, scale,
     position = rows[:, columns.position]
     for c in range(-(-fluid // cluster)):
         members = position[c * cluster : min((c + 1) * cluster, fluid)]
-        near = (np.linalg.norm(position[:, None] - members, axis=2) < lists.radius).any(axis=1)
+        apart = np.linalg.norm(position[:, None] - members, axis=2)
+        near = (apart < radius[:, None]).any(axis=1)
         outside = np.maximum(np.maximum(members.min(axis=0) - position, position - members.max(axis=0)), 0.0)
-        near_the_box = np.linalg.norm(outside, axis=1) < lists.radius * (1.0 + 1e-12)
+        near_the_box = np.linalg.norm(outside, axis=1) < radius * (1.0 + 1e-12)
         if cluster == 1:
             near[c * cluster] = near_the_box[c * cluster] = False
         first, second = int(lists.fluid_counts[c]), int(lists.ghost_counts[c])
@@ -215,8 +221,9 @@ def test_restored_lists_are_those_that_were_saved():
     fluid=st.integers(1, 120),
     cluster=st.sampled_from([1, 4, 7]),
     length=st.floats(1.0, 4.0),
+    half_edge=st.sampled_from([0.0, 0.1]),
 )
-def test_periodic_lists_hold_each_neighbour_once(dim, seed, axes, fluid, cluster, length):
+def test_periodic_lists_hold_each_neighbour_once(dim, seed, axes, fluid, cluster, length, half_edge):
     random, ghosts = np.random.default_rng(seed), 40
     periods = Periods.of(sorted(axes), ((-0.5,) * dim, (length - 0.5,) * dim))
     repeats = np.where(periods.repeats, length, np.inf)
@@ -224,7 +231,9 @@ def test_periodic_lists_hold_each_neighbour_once(dim, seed, axes, fluid, cluster
     rows = columns.zeros(fluid + ghosts)
     rows[:, columns.position] = random.uniform(-0.5, length - 0.5, (fluid + ghosts, dim))
     points = random.uniform(-length, 2.0 * length, (ghosts, dim))
-    lists = NeighbourLists(dim, fluid, ghosts, support=0.4, skin=0.05, cluster=cluster, periods=periods)
+    lists = NeighbourLists(dim, fluid, ghosts, 0.4, 0.05, cluster, periods=periods, half_edge=half_edge)
+    radius = np.full(fluid + ghosts, lists.radius)
+    radius[fluid:] += half_edge
     rows[:fluid] = rows[:fluid][lists.sort(rows)]
     lists.build(rows, points)
     position = rows[:, columns.position]
@@ -236,7 +245,7 @@ def test_periodic_lists_hold_each_neighbour_once(dim, seed, axes, fluid, cluster
 
     for c in range(-(-fluid // cluster)):
         members = range(c * cluster, min((c + 1) * cluster, fluid))
-        near = np.any([distance(position[i]) < lists.radius for i in members], axis=0)
+        near = np.any([distance(position[i]) < radius for i in members], axis=0)
         near[members[0]] &= len(members) > 1
         found = lists.fluid[c, : lists.fluid_counts[c] + lists.ghost_counts[c]].astype(int)
         assert len(set(found)) == len(found)
