@@ -43,10 +43,14 @@ class Akinci(WallTreatment):
     one row on the wall, in 2-D only, with the volume of a straight infinite row.
 
     Departs from the paper: there the pressure is p_i once in print, and twice in code; twice is right, since only then
-    a uniform pressure exerts no force. V_G of the row is not computed for bends and corners.
+    a uniform pressure exerts no force. V_G of the row is that of a straight one also at bends and corners, where the
+    sum over K gives 12 to 13 % less at right angles; the force that is left there is the method's with both (below).
 
     Known failures: the pressure lacks the weight of the water between i and G, so that a bed bears its first layer at
-    half its weight; still water moves away from the wall. A row leaves a force of 0.1 to 0.3 times 2 p/(rho dx).
+    half its weight; still water moves away from the wall. Under a uniform pressure p a row leaves an acceleration of
+    0.12 times 2 p/(rho dx) from the wall in the first layer (Gaussian, h = 1.3 dx; 0.05 for Wendland C2, h = 2 dx), of
+    0.35 to 0.37 into a corner of 90 degrees, with V_G from the sum 0.38, and of 0.44 to 0.52 away from one of
+    270 degrees, with V_G from the sum 0.38 to 0.44.
 
     Source: N. Akinci, M. Ihmsen, G. Akinci, B. Solenthaler, M. Teschner (2012), doi:10.1145/2185520.2185558.
 
