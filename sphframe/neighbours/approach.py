@@ -8,10 +8,10 @@ import math
 import numba
 import numpy as np
 
-from sphframe.compiled import local_array
+from sphframe.compiled import local_array, threaded
 
 
-@numba.njit(parallel=True, cache=True, error_model="numpy")
+@threaded
 def relative_displacement(rows, reference, dim, origin, edge, shape, boxes):  # type: ignore[no-untyped-def]
     """Return a bound, m, on the relative displacement of any two particles that were less than ``edge`` apart.
 

@@ -13,6 +13,7 @@ import numba
 import numpy as np
 
 from sphframe.arrays import Array, IntArray
+from sphframe.compiled import threaded
 
 
 class Grid(NamedTuple):
@@ -57,26 +58,7 @@ def cell_number(shape, row, c):  # type: ignore[no-untyped-def]
     return row * shape[2] + (shape[2] - 1 - c if row % 2 else c)
 
 
-@numba.njit(parallel=True, cache=True)
-def bounding_box(rows, count, dim, lower, upper):  # type: ignore[no-untyped-def]
-    """Write the corners (dim,) of the box around the positions of the first ``count`` rows."""
-    chunks = min(count, 64)
-    corners = np.empty((chunks, 2, 3))
-    for chunk in numba.prange(chunks):
-        begin = chunk * count // chunks
-        for k in range(dim):
-            low = high = rows[begin, k]
-            for i in range(begin + 1, (chunk + 1) * count // chunks):
-                low = min(low, rows[i, k])
-                high = max(high, rows[i, k])
-            corners[chunk, 0, k] = low
-            corners[chunk, 1, k] = high
-    for k in range(dim):
-        lower[k] = corners[:, 0, k].min()
-        upper[k] = corners[:, 1, k].max()
-
-
-@numba.njit(parallel=True, cache=True, error_model="numpy")
+@threaded
 def sort_by_cell(rows, dim, grid, cells, tallies, starts, order):  # type: ignore[no-untyped-def]
     """Sort rows by cell, keeping the order within one: ``order[starts[c]:starts[c + 1]]`` are the members of cell c.
 
@@ -124,7 +106,7 @@ def sort_by_cell(rows, dim, grid, cells, tallies, starts, order):  # type: ignor
                 tally[cells[i]] += 1
 
 
-@numba.njit(parallel=True, cache=True)
+@threaded
 def put_in_order(rows, order, spare):  # type: ignore[no-untyped-def]
     """Put the first rows of ``rows`` into ``order`` (n,), by way of ``spare``, which is at least as long and wide."""
     for i in numba.prange(order.shape[0]):

@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sphframe.arrays import Array, IntArray
-from sphframe.compiled import LANES
+from sphframe.compiled import LANES, threaded
 from sphframe.neighbours.approach import relative_displacement
-from sphframe.neighbours.cells import Grid, bounding_box, cell_number, grid_around, row_number, sort_by_cell
+from sphframe.neighbours.cells import Grid, cell_number, grid_around, row_number, sort_by_cell
 from sphframe.neighbours.motion import LargestMotion, largest_motion, largest_wall_displacement
 from sphframe.neighbours.sight import Sight, keep_seen, share_lists
 from sphframe.particles import Periods
@@ -133,7 +133,8 @@ class NeighbourLists:
 
         In periodic directions they must lie in the box that repeats itself, as ghosts in :meth:`build` must.
         """
-        bounding_box(rows, self.fluid_count, self.dim, self._lower, self._upper)
+        for k in range(self.dim):
+            self._lower[k], self._upper[k] = rows[: self.fluid_count, k].min(), rows[: self.fluid_count, k].max()
         periods = self.periods
         np.copyto(self._lower, periods.lower, where=periods.repeats)
         np.copyto(self._upper, periods.lower + periods.length, where=periods.repeats)
@@ -416,7 +417,7 @@ def _may_be_near(x, y, z, dim, radius, grid, starts):  # type: ignore[no-untyped
     return False
 
 
-@numba.njit(parallel=True, cache=True, error_model="numpy")
+@threaded
 def _mark_near(  # type: ignore[no-untyped-def]
     points, n, dim, radius, grid, starts, shifts, lists, counts, ghost_counts, near
 ):
@@ -473,7 +474,7 @@ def _gather(  # type: ignore[no-untyped-def]
     return found
 
 
-@numba.njit(parallel=True, cache=True, error_model="numpy")
+@threaded
 def _list_particles(  # type: ignore[no-untyped-def]
     rows, n, cluster, dim, radius, half_edge, grid, starts, no_order, ghost_starts, ghost_order, shifts, narrow,
     lists, counts, ghost_counts,
@@ -514,7 +515,7 @@ def _list_particles(  # type: ignore[no-untyped-def]
     return longest
 
 
-@numba.njit(parallel=True, cache=True, error_model="numpy")
+@threaded
 def _list_points(  # type: ignore[no-untyped-def]
     points, rows, dim, radius, grid, starts, no_order, shifts, lists, counts
 ):

@@ -5,6 +5,8 @@ from typing import NamedTuple
 
 import numba
 
+from sphframe.compiled import threaded
+
 
 class LargestMotion(NamedTuple):
     """Largest ``speed`` of the fluid, m/s, and its largest ``displacement`` since the lists were built, m."""
@@ -13,7 +15,7 @@ class LargestMotion(NamedTuple):
     displacement: float
 
 
-@numba.njit(parallel=True, cache=True)
+@threaded
 def largest_motion(rows, reference, dim):  # type: ignore[no-untyped-def]
     """Return the largest speed, m/s, and displacement from ``reference`` (n, dim), m, of the first n ``rows``."""
     speed2 = 0.0

@@ -21,7 +21,7 @@ import numba
 import numpy as np
 
 from sphframe.arrays import Array, BoolArray, IntArray
-from sphframe.compiled import LANES
+from sphframe.compiled import LANES, threaded
 
 WHOLE = 128
 """share in which a neighbour is seen if nothing hides it; shares are bytes, and at most 1.5"""
@@ -243,7 +243,7 @@ def _sides_near(x0, x1, y0, y1, radius, sight, near):  # type: ignore[no-untyped
     return count if any_thin else -1
 
 
-@numba.njit(parallel=True, cache=True, error_model="numpy")
+@threaded
 def share_lists(rows, n, radius, lists, counts, ghost_counts, shares, sight):  # type: ignore[no-untyped-def]
     """Write in which ``shares`` (clusters, capacity, LANES) the particles of clusters see the entries of their lists.
 
@@ -288,7 +288,7 @@ def share_lists(rows, n, radius, lists, counts, ghost_counts, shares, sight):  #
         ghost_counts[c] = kept - fluid_kept
 
 
-@numba.njit(parallel=True, cache=True, error_model="numpy")
+@threaded
 def share_points(points, rows, numbers, n, radius, lists, counts, shares, sight):  # type: ignore[no-untyped-def]
     """Write in which ``shares`` (k, capacity) ``points`` (k, 2) see the entries of their lists of fluid and ghosts.
 
@@ -307,7 +307,7 @@ def share_points(points, rows, numbers, n, radius, lists, counts, shares, sight)
                 shares[p, k] = share_of_ghost(x, y, rows[j, 0], rows[j, 1], numbers[j] - n, near, count, sight)
 
 
-@numba.njit(parallel=True, cache=True, error_model="numpy")
+@threaded
 def keep_seen(points, rows, radius, lists, counts, ghosts, sight):  # type: ignore[no-untyped-def]
     """Take the particles out of the ``lists`` of ``points`` (k, 2) of which half or more is hidden from them.
 

@@ -5,7 +5,7 @@ from sphframe.boundary.wall_states import WallStates
 from sphframe.interfaces import System
 from sphframe.particles import Columns
 from sphframe.simulation.body_states import BodyStates
-from sphframe.simulation.updates import add_columns, advance_state, copy_state
+from sphframe.simulation.updates import add_columns, advance_state
 
 
 class PackedSystem(System):
@@ -27,7 +27,7 @@ class PackedSystem(System):
 
     def hold(self) -> None:
         """Remember the state as the start of the step."""
-        copy_state(self.rows, self._start)
+        self._start[:] = self.rows[: self.fluid_count, : self._start.shape[1]]
         self._total[:] = 0.0
         self.bodies.hold()
         self.wall_states.hold()

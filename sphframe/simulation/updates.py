@@ -2,16 +2,10 @@
 
 import numba
 
-
-@numba.njit(parallel=True, cache=True)
-def copy_state(rows, start):  # type: ignore[no-untyped-def]
-    """Copy position, velocity and density of ``rows`` to ``start`` (n, 2 dim + 1)."""
-    for i in numba.prange(start.shape[0]):
-        for k in range(start.shape[1]):
-            start[i, k] = rows[i, k]
+from sphframe.compiled import threaded
 
 
-@numba.njit(parallel=True, cache=True)
+@threaded
 def advance_state(rows, start, rates, interval):  # type: ignore[no-untyped-def]
     """Set y = y0 + dt f in ``rows`` for y0 = ``start`` and f = ``rates`` (n, 2 dim + 1)."""
     for i in numba.prange(start.shape[0]):
@@ -19,7 +13,7 @@ def advance_state(rows, start, rates, interval):  # type: ignore[no-untyped-def]
             rows[i, k] = start[i, k] + interval * rates[i, k]
 
 
-@numba.njit(parallel=True, cache=True)
+@threaded
 def add_columns(rows, rates, count, first, end, shift, factor):  # type: ignore[no-untyped-def]
     """Add ``factor`` times the columns from ``first + shift`` on of ``rates`` to ``first`` .. ``end`` of ``rows``.
 
