@@ -12,7 +12,7 @@ import pytest
 from sphframe import Seen, WallParts, WallTraits, WallTreatment, create
 from sphframe.testing import BrokenPromiseError, checks_of, wall_residuals
 from sphframe.testing.verification import _installed
-from sphframe.testing.wall_treatments import poiseuille_error
+from sphframe.testing.wall_treatments import _box, _set, poiseuille_error
 
 KERNELS = {"gaussian": 1.3, "wendland-c2": 2.0}
 
@@ -140,3 +140,45 @@ def test_the_documentation_has_the_measured_errors(name):
         residuals = wall_residuals(create("wall_treatments", name), kernel, ratio)
         found = [[float(value) for value in cell.split("/")] for cell in measured[name, kernel]]
         np.testing.assert_allclose(found, residuals, atol=1.1e-3)
+
+
+@dataclass(frozen=True)
+class TwoMethods(WallTreatment):
+    """The pressure by kernel averages, the velocity by linear fits, of which the part along the normal is reversed."""
+
+    traits = WallTraits()
+
+    def interpolator(self, chosen):
+        return create("interpolators", "normalized")
+
+    def velocity_interpolator(self, chosen):
+        return create("interpolators", "mls-linear")
+
+    def parts(self, context):
+        dim = context.dim
+
+        def assign(fluid, wall, constants, velocity, viscous_velocity):
+            normal = 0.0
+            for d in range(dim):
+                normal += (fluid.velocity[d] - wall.velocity[d]) * wall.normal[d]
+            for d in range(dim):
+                velocity[d] = fluid.velocity[d] - 2.0 * normal * wall.normal[d]
+            return fluid.pressure, 1.0
+
+        return WallParts(assign=assign)
+
+
+def test_velocities_have_weights_of_their_own_and_know_the_normal():
+    """Linear fields at the mirror point, half a spacing above the bed: the linear fit is exact, the average is not."""
+    simulation = _box(TwoMethods(), gravity=0.0)
+    _set(
+        simulation,
+        pressure=lambda x: 1000.0 * x[:, 1],
+        velocity=lambda x: np.stack([x[:, 1], 2.0 * x[:, 1] + 0.01], axis=1),
+    )
+    ghosts = simulation.ghost_fields()
+    x, y = ghosts.position.T
+    below = (np.abs(y + 0.005) < 1e-9) & (np.abs(x - 0.18) < 0.1)
+    assert below.sum() == 20
+    np.testing.assert_allclose(ghosts.velocity[below], [[0.005, -0.02]] * 20, atol=1e-9)
+    assert (ghosts.pressure[below] > 1.2 * 5.0).all()
