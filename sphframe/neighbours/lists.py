@@ -135,9 +135,8 @@ class NeighbourLists:
         """
         for k in range(self.dim):
             self._lower[k], self._upper[k] = rows[: self.fluid_count, k].min(), rows[: self.fluid_count, k].max()
-        periods = self.periods
-        np.copyto(self._lower, periods.lower, where=periods.repeats)
-        np.copyto(self._upper, periods.lower + periods.length, where=periods.repeats)
+        np.copyto(self._lower, self.periods.lower, where=self.periods.repeats)
+        np.copyto(self._upper, self.periods.lower + self.periods.length, where=self.periods.repeats)
         margin = 1.1 * (self.radius + self.half_edge)  # includes all ghosts within reach
         self._grid = grid_around(self._lower, self._upper, self.width, margin)
         if self._tallies.shape[1] != self._grid.size:
