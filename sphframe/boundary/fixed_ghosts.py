@@ -39,7 +39,7 @@ Source: X. Huang et al. (2019), doi:10.3390/w11051110, section 2.2 and Eqs. 8, 1
 after M. De Leffe, D. Le Touze, B. Alessandrini (2011), 6th international SPHERIC workshop.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, final
 
 from sphframe.arrays import Array
@@ -61,8 +61,8 @@ from sphframe.interfaces import (
 from sphframe.interfaces.boundary_interpolator import kernel_average
 
 _ORDERS = Orders(
-    pressure=Order(2, 0), divergence=Order(1, 1), viscosity=Order(0, 0), shear=Order(2, 2),
-    slip_divergence=Order(2, 0), slip_viscosity=Order(0, -1),
+    pressure=Order(2, 0), viscosity=Order(0, 0), shear=Order(2, 2), slip_divergence=Order(2, 0),
+    slip_viscosity=Order(0, -1),
 )  # fmt: skip
 
 
@@ -79,7 +79,12 @@ class FixedGhosts(WallTreatment):
     """
 
     continuity: Literal["no-slip", "free-slip"] = "no-slip"
-    traits = WallTraits(exact_constant=True, exact_hydrostatic=True, order=_ORDERS)
+
+    @property
+    def traits(self) -> WallTraits:
+        """Those of the chosen continuity: free slip promises no order of the divergence but on a lattice."""
+        divergence = Order(1, 1 if self.continuity == "no-slip" else None)
+        return WallTraits(exact_constant=True, exact_hydrostatic=True, order=replace(_ORDERS, divergence=divergence))
 
     def interpolator(self, chosen: BoundaryInterpolator) -> BoundaryInterpolator:
         """Return the method that the case chose."""

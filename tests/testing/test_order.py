@@ -13,7 +13,7 @@ import pytest
 
 from sphframe import FixedGhosts, InputError, Order, Orders, create
 from sphframe.cli.verify import verify as print_verification
-from sphframe.testing import Fit, OrderReport, measure_order
+from sphframe.testing import Fit, OrderReport, measure_order, verify_order
 from sphframe.testing.junit import write_junit
 from sphframe.testing.order_fields import DENSITY, GRAVITY, RADIUS, WALLS, gradient
 from sphframe.testing.order_scenes import Beside
@@ -152,6 +152,13 @@ def test_the_command_prints_a_table_and_fails_where_a_promise_does_not_hold(monk
     assert "broken: mine: pressure: order 1.00" in printed
     assert print_verification(["broken"], order=True, as_json=True) == 1
     assert json.loads(capsys.readouterr().out)[0]["promised"]["pressure"]["straight"] == 2
+
+
+@pytest.mark.long
+def test_all_that_are_installed_keep_their_promised_orders():
+    reports = list(verify_order())
+    assert len(reports) > 20
+    assert {report.name: report.failures() for report in reports if report.broken} == {}
 
 
 def test_only_interpolators_and_treatments_have_orders():
