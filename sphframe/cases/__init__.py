@@ -6,7 +6,7 @@ from sphframe.cases.custom import Custom
 from sphframe.cases.dam_break_series import WaterColumn
 from sphframe.cases.exact import Benchmark, ExactCase
 from sphframe.cases.load import load_case, read_toml
-from sphframe.cases.open_boundaries import OpenBoundaries
+from sphframe.cases.open_boundaries import OpenBoundaries, zone_length
 from sphframe.cases.parameters import Component, Derived, downward_gravity, quantity, with_default, written
 from sphframe.cases.scene import Diagnostic, Gauge, Probe, Scene, Sources, WallPart
 from sphframe.interfaces import Fields
@@ -38,4 +38,5 @@ __all__ = [
     "read_toml",
     "with_default",
     "written",
+    "zone_length",
 ]

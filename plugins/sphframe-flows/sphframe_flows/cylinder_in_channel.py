@@ -8,19 +8,9 @@ import numpy as np
 import xarray as xr
 
 from sphframe import Array, Case, InputError
-from sphframe.cases import (
-    Benchmark,
-    Component,
-    Derived,
-    ExactCase,
-    OpenBoundaries,
-    Probe,
-    Scene,
-    downward_gravity,
-    quantity,
-    with_default,
-)
+from sphframe.cases import Benchmark, Derived, OpenBoundaries, Probe, Scene, quantity, with_default, zone_length
 from sphframe.geometry import Box, Circle, CircleWall, DifferenceRegion, PolygonWall
+from sphframe_flows.confined import ConfinedFlow
 from sphframe_flows.solutions import late_mean, sample_times, variable
 
 _DRAG, _LIFT, _PRESSURE = 5.579535, 0.010619, 0.117520 / 0.04
@@ -28,7 +18,7 @@ _DRAG, _LIFT, _PRESSURE = 5.579535, 0.010619, 0.117520 / 0.04
 
 
 @final
-class CylinderInChannel(ExactCase):
+class CylinderInChannel(ConfinedFlow):
     """A cylinder of diameter D in a channel from an inflow, whose profile is a parabola, to an outflow, with no slip.
 
     By default this is the stationary flow 2D-1 of Schaefer and Turek at the Reynolds number U D / nu = 20, with the
@@ -82,19 +72,11 @@ class CylinderInChannel(ExactCase):
             ),
         ),
     )
-    gravity: float = downward_gravity(0.0)
     kinematic_viscosity: float = with_default(
         Case,
         "kinematic_viscosity",
         Derived("U D / reynolds_number", lambda case: case.mean_velocity * case.diameter / case.reynolds_number),
     )
-    artificial_viscosity: float = with_default(Case, "artificial_viscosity", 0.0)
-    shifting: float = with_default(Case, "shifting", 1.0)
-    slip: Literal["free", "no"] = with_default(Case, "slip", "no")
-    wall_treatment: Component = with_default(
-        Case, "wall_treatment", Component(name="fixed-ghosts", options={"continuity": "free-slip"})
-    )
-    tension: Literal["none", "bounded", "free"] = with_default(Case, "tension", "free")
     sound_speed: float | None = with_default(
         Case, "sound_speed", Derived("20 mean_velocity", lambda case: 20.0 * case.mean_velocity)
     )
@@ -117,8 +99,8 @@ class CylinderInChannel(ExactCase):
             raise InputError("the cylinder must lie between bed, lid, inflow and outflow: change diameter or centre")
         if self.open_boundaries is None or self.kinematic_viscosity == 0.0:
             raise InputError("the flow around a cylinder needs open_boundaries and a kinematic_viscosity")
-        support = self.kernel.create("kernels").support * self.smoothing_length_ratio
-        zone = math.ceil(2.0 * support - 1e-9) * self.particle_spacing
+        support = self.kernel.create("kernels").support * self.smoothing_length_ratio * self.particle_spacing
+        zone = zone_length(self.particle_spacing, support)
         beyond = (-2.0 * zone, length + 2.0 * zone)
         gradient = 12.0 * self.reference_density * self.kinematic_viscosity * self.mean_velocity / width**2
         outflow = self.open_boundaries.pressure or 0.0

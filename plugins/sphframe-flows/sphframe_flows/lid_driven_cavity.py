@@ -7,8 +7,9 @@ import numpy as np
 import xarray as xr
 
 from sphframe import Case
-from sphframe.cases import Benchmark, Component, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
+from sphframe.cases import Benchmark, Derived, Scene, quantity, with_default
 from sphframe.geometry import PolygonRegion, PolygonWall
+from sphframe_flows.confined import ConfinedFlow
 from sphframe_flows.solutions import mean_velocity, variable
 
 # s/L, then u and v at Re 100, at Re 400, at Re 1000
@@ -51,7 +52,7 @@ _TABLE = np.array([
 _COLUMN = {100: 1, 400: 3, 1000: 5}
 
 
-class LidDrivenCavity(ExactCase):
+class LidDrivenCavity(ConfinedFlow):
     """Fluid in a square cavity of side L whose lid slides along x with the speed U, full of fluid, without gravity.
 
     The solution is a table of a stationary flow: u on the vertical, v on the horizontal centre line, over U, at the
@@ -75,19 +76,11 @@ class LidDrivenCavity(ExactCase):
     side: float = quantity(1.0, "m", "side L of the cavity", gt=0)
     lid_speed: float = quantity(1.0, "m s-1", "speed U of the lid", gt=0)
     reynolds_number: Literal[100, 400, 1000] = quantity(100, "1", "Reynolds number U L / nu")
-    gravity: float = downward_gravity(0.0)
     kinematic_viscosity: float = with_default(
         Case,
         "kinematic_viscosity",
         Derived("lid_speed side / reynolds_number", lambda case: case.lid_speed * case.side / case.reynolds_number),
     )
-    artificial_viscosity: float = with_default(Case, "artificial_viscosity", 0.0)
-    shifting: float = with_default(Case, "shifting", 1.0)
-    slip: Literal["free", "no"] = with_default(Case, "slip", "no")
-    wall_treatment: Component = with_default(
-        Case, "wall_treatment", Component(name="fixed-ghosts", options={"continuity": "free-slip"})
-    )
-    tension: Literal["none", "bounded", "free"] = with_default(Case, "tension", "free")
     sound_speed: float | None = with_default(
         Case, "sound_speed", Derived("10 lid_speed", lambda case: 10.0 * case.lid_speed)
     )

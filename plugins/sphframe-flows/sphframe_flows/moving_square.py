@@ -7,8 +7,9 @@ import numpy as np
 import xarray as xr
 
 from sphframe import Array, Case, InputError
-from sphframe.cases import Benchmark, Component, Derived, ExactCase, Scene, downward_gravity, quantity, with_default
+from sphframe.cases import Benchmark, Derived, Scene, quantity, with_default
 from sphframe.geometry import DifferenceRegion, Polygon, PolygonWall
+from sphframe_flows.confined import ConfinedFlow
 from sphframe_flows.smooth_start import SmoothStart
 from sphframe_flows.solutions import variable
 
@@ -25,7 +26,7 @@ _DRAG = np.array([
 
 
 @final
-class MovingSquare(ExactCase):
+class MovingSquare(ConfinedFlow):
     """A square of side D starts along x to the speed U in a box 10 D x 5 D full of fluid at rest, with no slip.
 
     This is SPHERIC's test 6, after A. Colagrossi (INSEAN). The centre starts 1.5 D from the left wall, half way up, and
@@ -49,19 +50,11 @@ class MovingSquare(ExactCase):
     side: float = quantity(1.0, "m", "side D of the square", gt=0)
     speed: float = quantity(1.0, "m s-1", "speed U of the square", gt=0)
     reynolds_number: float = quantity(100.0, "1", "Reynolds number U D / nu", gt=0)
-    gravity: float = downward_gravity(0.0)
     kinematic_viscosity: float = with_default(
         Case,
         "kinematic_viscosity",
         Derived("speed side / reynolds_number", lambda case: case.speed * case.side / case.reynolds_number),
     )
-    artificial_viscosity: float = with_default(Case, "artificial_viscosity", 0.0)
-    shifting: float = with_default(Case, "shifting", 1.0)
-    slip: Literal["free", "no"] = with_default(Case, "slip", "no")
-    wall_treatment: Component = with_default(
-        Case, "wall_treatment", Component(name="fixed-ghosts", options={"continuity": "free-slip"})
-    )
-    tension: Literal["none", "bounded", "free"] = with_default(Case, "tension", "free")
     sound_speed: float | None = with_default(Case, "sound_speed", Derived("25 speed", lambda case: 25.0 * case.speed))
     background_pressure: float = quantity(
         Derived("3 rho U^2", lambda case: 3.0 * case.reference_density * case.speed**2), "Pa", "pressure at rest"
