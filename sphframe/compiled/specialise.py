@@ -64,7 +64,7 @@ def compile_part(function: F, *, inlined: bool = False) -> F:
     """
     if isinstance(function, Dispatcher) or numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
         return function
-    return cast(F, _compiled_once(function, {"error_model": "numpy", **({"forceinline": True} if inlined else {})}))
+    return cast(F, _compiled_once(function, {"error_model": "numpy", "forceinline": inlined}))
 
 
 def _compiled_once(function: Any, options: dict[str, Any]) -> Any:

@@ -34,7 +34,7 @@ _ADVICE = {
     ),
 }
 
-OK, DRY, TOO_FEW, SINGULAR = map(int, Status)
+OK, DRY, TOO_FEW, SINGULAR = map(int, (Status.OK, Status.DRY, Status.TOO_FEW, Status.SINGULAR))
 
 
 class EvaluationPoint(enum.StrEnum):

@@ -53,9 +53,10 @@ class Shifting:
         eigenvalues, sums, crowding, normals = self._found
         near = lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares
         self._fill(rows, *near, parameters, eigenvalues, sums, crowding)
-        normals[:] = 0.0
         if np.any(eigenvalues < SURFACE):
             self._normals(rows, lists.fluid, lists.fluid_counts, lists.shares, parameters, eigenvalues, normals)
+        else:
+            normals[:] = 0.0
         return self._found
 
     def shift(
@@ -69,7 +70,8 @@ class Shifting:
     ) -> None:
         """Shift the particles, but those that are ``still`` (n,), after a step of ``interval``, s.
 
-        ``speed``: the largest of the fluid, m/s.
+        ``speed``: the largest of the fluid, m/s. Velocities and densities change by their rates half way: an error of
+        first order would not change its sign, since particles swing around the places where they are even.
         """
         if self.coefficient > 0.0:
             eigenvalues, _, crowding, normals = self.find(rows, lists, parameters)
@@ -78,10 +80,10 @@ class Shifting:
             if still is not None:
                 shifts[still] = 0.0
             half, changes = 0.5 * interval * shifts[:, : lists.dim], np.zeros((n, 4))
-            rows[:n, columns.position] += half  # a first order would be off by a part that does not change its sign,
             near = lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares
+            rows[:n, columns.position] += half
             self._transport(rows, *near, parameters, shifts, changes)
-            rows[:n, columns.position] += half  # since particles swing around the places where they are even
+            rows[:n, columns.position] += half
             rows[:n, columns.velocity] += interval * changes[:, : lists.dim]
             rows[:n, columns.density] += interval * changes[:, 3]
 
