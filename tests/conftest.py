@@ -1,7 +1,10 @@
+import atexit
 import importlib.util
 import os
+import shutil
 import signal
 import sys
+import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from textwrap import dedent
@@ -17,6 +20,11 @@ Install = Callable[..., Path]
 
 # threads that wait give up their core: test processes run side by side, and would else keep each other waiting
 os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
+
+if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
+    # tests start hundreds of Python processes: where byte code may not lie beside its modules, they share a folder
+    os.environ["PYTHONPYCACHEPREFIX"] = tempfile.mkdtemp(prefix="sphframe-byte-code-")
+    atexit.register(shutil.rmtree, os.environ["PYTHONPYCACHEPREFIX"], ignore_errors=True)
 
 # no test depends on speed: other processes may keep all cores busy
 settings.register_profile("any-speed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
