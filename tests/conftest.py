@@ -1,4 +1,5 @@
 import atexit
+import gc
 import importlib.util
 import os
 import shutil
@@ -25,6 +26,10 @@ if os.environ.pop("PYTHONDONTWRITEBYTECODE", ""):
     # tests start hundreds of Python processes: where byte code may not lie beside its modules, they share a folder
     os.environ["PYTHONPYCACHEPREFIX"] = tempfile.mkdtemp(prefix="sphframe-byte-code-")
     atexit.register(shutil.rmtree, os.environ["PYTHONPYCACHEPREFIX"], ignore_errors=True)
+
+# compiling makes many objects, and each search for garbage walks through those of all packages as well
+gc.freeze()
+gc.set_threshold(50_000, 20, 20)
 
 # no test depends on speed: other processes may keep all cores busy
 settings.register_profile("any-speed", deadline=None, suppress_health_check=[HealthCheck.too_slow])

@@ -482,7 +482,7 @@ def _list_particles(  # type: ignore[no-untyped-def]
 
     Copies are moved by ``shifts`` (m, 3). A cluster whose box exceeds ``narrow`` (3,) may meet a neighbour twice.
     """
-    longest = 0
+    longest = zero = np.int64(0)  # a literal would have the functions compiled again for its own type
     for c in numba.prange(counts.shape[0]):
         first = c * cluster
         last = min(first + cluster, n)
@@ -501,8 +501,8 @@ def _list_particles(  # type: ignore[no-untyped-def]
         repeated = x1 - x0 >= narrow[0] or y1 - y0 >= narrow[1] or (dim == 3 and z1 - z0 >= narrow[2])
         members = lists[c]
         found = _gather(
-            rows, dim, box, radius, grid, starts, no_order, 0, shifts, first, last, selected, repeated, cluster == 1,
-            members, 0,
+            rows, dim, box, radius, grid, starts, no_order, zero, shifts, first, last, selected, repeated, cluster == 1,
+            members, zero,
         )  # fmt: skip
         counts[c] = found
         found = _gather(
@@ -519,12 +519,12 @@ def _list_points(  # type: ignore[no-untyped-def]
     points, rows, dim, radius, grid, starts, no_order, shifts, lists, counts
 ):
     """List the fluid neighbours of each point; returns the longest list, which must stay below the capacity."""
-    longest = 0
+    longest, zero, no = np.int64(0), np.int64(0), np.bool_(False)
     for i in numba.prange(points.shape[0]):
         x, y, z = points[i, 0], points[i, 1], points[i, dim - 1]
         box = (x, x, y, y, z, z)
         counts[i] = _gather(
-            rows, dim, box, radius, grid, starts, no_order, 0, shifts, 0, 0, False, False, False, lists[i], 0
+            rows, dim, box, radius, grid, starts, no_order, zero, shifts, zero, zero, no, no, no, lists[i], zero
         )
         longest = max(longest, counts[i])
     return longest
