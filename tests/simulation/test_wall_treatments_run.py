@@ -22,38 +22,45 @@ REPELLING = ("lennard-jones", "monaghan-kajtar-2009")
 
 
 MOST = numba.config.NUMBA_NUM_THREADS
-ON_THREADS = [
-    *(pytest.param(name, "symplectic", MOST) for name in ("fixed-ghosts", "edge-integrals")),
-    *(
-        pytest.param(name, "symplectic", MOST, marks=pytest.mark.long)
-        for name in ("band-2018", "dynamic-2007", "lennard-jones", "mirror-images")
-    ),
+ON_THREADS = ("fixed-ghosts", "edge-integrals")
+"""one treatment of each kind of loop; a long test has all"""
+FINE, COARSE = {}, {"dimension": 3, "particle_spacing": 0.12}
+VARIANTS = [
+    *((name, FINE) for name in TREATMENTS if name not in ON_THREADS),
+    *((name, COARSE) for name in ("fixed-ghosts", "dynamic-2007", "lennard-jones", "mirror-images", "pair-mirror")),
+    *((name, {"tension": "none"}) for name in ("fixed-ghosts", "edge-integrals", "mirror-images", "pair-mirror")),
+    *((name, {"slip": "free"}) for name in ("fixed-ghosts", "mdbc-2025", "riemann-2017", "usaw-2013")),
+    ({"name": "akinci-2012", "row": True}, FINE),
+    ({"name": "distance-ratio", "continuity": "ratio", "cap": 1.5}, FINE),
+    ({"name": "dynamic-2007", "diffusion": 0.1}, FINE),
+    ({"name": "fixed-ghosts", "continuity": "free-slip"}, FINE),
+    ({"name": "lennard-jones", "steep": True}, FINE),
+    ({"name": "mdbc-2025", "velocity": "corrected"}, FINE),
+    ({"name": "monaghan-kajtar-2009", "shifted": True}, FINE),
+    ({"name": "pair-mirror", "lift": False}, FINE),
+    ({"name": "riemann-2017", "limiter": 0.0}, FINE),
 ]
-"""one treatment for each loop: threads share the work of the loops, and what a treatment gives is a part of them"""
+"""all treatments, their options that change a loop, and some in 3-D, with another tension or with free slip"""
 
 
-def started(treatment, integrator, threads):
-    given = {**SMALL, "wall_treatment": treatment, "integrator": integrator}
+def described(value):
+    if value in ({}, ()):
+        return "default"
+    return ",".join(f"{key}={v}" for key, v in value.items()) if isinstance(value, dict) else None
+
+
+def started(treatment, integrator, threads, changes):
+    given = {**SMALL, "wall_treatment": treatment, "integrator": integrator, **changes}
     return Simulation(load_case("dam-break", None, given), threads=threads)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("treatment", "integrator", "threads"),
-    [
-        *ON_THREADS,
-        *((name, "symplectic", 1) for name in TREATMENTS if name not in ("fixed-ghosts", "edge-integrals")),
-        ("pair-mirror", "rk4", 1),
-        ("dynamic-2007", "rk4", 1),
-    ],
-)
-def test_runs_continue_to_the_bit_on_any_number_of_threads(treatment, integrator, threads):
-    one, two = started(treatment, integrator, 1), started(treatment, integrator, threads)
+def run_and_continue(treatment, integrator, threads, changes):
+    one, two = (started(treatment, integrator, count, changes) for count in (1, threads))
     for _ in range(15):
         one.advance()
     for _ in range(10):
         two.advance()
-    again = started(treatment, integrator, 1)
+    again = started(treatment, integrator, 1, changes)
     again.restore(two.state())
     for _ in range(5):
         two.advance()
@@ -62,6 +69,26 @@ def test_runs_continue_to_the_bit_on_any_number_of_threads(treatment, integrator
         if name != "clocks":
             np.testing.assert_array_equal(two.state()[name], value, err_msg=name)
             np.testing.assert_array_equal(again.state()[name], value, err_msg=name)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("treatment", "integrator", "threads"),
+    [
+        *((name, "symplectic", MOST) for name in ON_THREADS),
+        *((name, "symplectic", 1) for name in TREATMENTS if name not in ON_THREADS),
+        ("pair-mirror", "rk4", 1),
+        ("dynamic-2007", "rk4", 1),
+    ],
+)
+def test_runs_continue_to_the_bit_on_any_number_of_threads(treatment, integrator, threads):
+    run_and_continue(treatment, integrator, threads, FINE)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("treatment", "changes"), VARIANTS, ids=described)
+def test_threads_do_not_change_the_bits_of_any_treatment(treatment, changes):
+    run_and_continue(treatment, "symplectic", MOST, changes)
 
 
 @pytest.mark.parametrize("treatment", [name for name in TREATMENTS if name not in REPELLING])
