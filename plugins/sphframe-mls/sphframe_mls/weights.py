@@ -1,6 +1,7 @@
 """Moving least squares weights of degree one and two (Eqs. 8-9 of Huang et al. 2019)."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 from sphframe import (
     OK,
@@ -14,7 +15,9 @@ from sphframe import (
     WeightsFunction,
     local_array,
 )
+from sphframe_mls.rank_revealing import rank_revealing
 
+Fallback = Literal["kernel-average", "rank-revealing"]
 _THINNEST = 1e-8
 """smallest pivot, relative to the scale of its degree: the square of the relative thickness of the cloud"""
 _LEAST_SHARE = 0.01
@@ -32,7 +35,34 @@ _QUADRATIC = Orders(
 
 
 @dataclass(frozen=True)
-class LinearMLS(BoundaryInterpolator):
+class _LeastSquares(BoundaryInterpolator):
+    """Options and fallback of both degrees."""
+
+    amplification: float = 3.0
+    """largest accepted sum |Phi_j|, the factor by which noise may be amplified"""
+    fallback: Fallback = "kernel-average"
+    """weights where the status is not OK: "kernel-average", or "rank-revealing", linear along the neighbours' spread"""
+
+    def __post_init__(self) -> None:
+        if not self.amplification >= 1.0:
+            wanted = "amplification must be a number of at least 1, since the weights sum to one"
+            raise ValueError(f"{wanted}; got {self.amplification!r}")
+        if self.fallback not in ("kernel-average", "rank-revealing"):
+            raise ValueError(f'fallback must be "kernel-average" or "rank-revealing", got {self.fallback!r}')
+
+    def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
+        """Return the weights function."""
+        return _least_squares(self.traits.reproduces_degree, kernel, dim, self.amplification)
+
+    def fallback_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
+        """Return the weights where the status is not OK."""
+        average = super().fallback_weights(kernel, dim)
+        revealing = self.fallback == "rank-revealing"
+        return rank_revealing(average, kernel, dim, self.amplification) if revealing else average
+
+
+@dataclass(frozen=True)
+class LinearMLS(_LeastSquares):
     """Moving least squares of degree one: exact on linear fields.
 
     With the basis b_j = (1, x_j/h, y_j/h[, z_j/h]) about the evaluation point::
@@ -42,7 +72,7 @@ class LinearMLS(BoundaryInterpolator):
     The status is TOO_FEW for fewer than 3 (4) neighbours in 2-D (3-D). It is SINGULAR where the neighbours lie on one
     line (plane), and where sum |Phi_j| exceeds ``amplification``. Neighbours on a line are recognised by the pivots of
     M: a solver of linear systems may find a solution for them, with weights that sum to 0.6. The fallback is the kernel
-    average.
+    average, or with ``fallback="rank-revealing"`` linear along the directions in which the neighbours are spread.
 
     Source: Lancaster & Salkauskas (1981), doi:10.1090/S0025-5718-1981-0616367-1; Marrone et al. (2011),
     doi:10.1016/j.cma.2010.12.016; Huang et al., Water 11 (2019).
@@ -50,48 +80,33 @@ class LinearMLS(BoundaryInterpolator):
     Attributes
     ----------
     amplification
-        largest sum of absolute weights; above it the kernel average is used.
+        largest sum of absolute weights; above it the fallback is used.
+    fallback
+        "kernel-average", or "rank-revealing": linear along the directions in which the neighbours are spread.
     """
-
-    amplification: float = 3.0
-    """largest accepted sum |Phi_j|, the factor by which noise may be amplified"""
 
     traits = Traits(reproduces_degree=1, fewest_points=(3, 4), order=_LINEAR)
 
-    def __post_init__(self) -> None:
-        _check_amplification(self.amplification)
-
-    def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
-        """Return the weights function."""
-        return _least_squares(1, kernel, dim, self.amplification)
-
 
 @dataclass(frozen=True)
-class QuadraticMLS(BoundaryInterpolator):
+class QuadraticMLS(_LeastSquares):
     """Moving least squares of degree two: exact on quadratic fields.
 
     The equation is that of :class:`LinearMLS` with the full quadratic basis of 6 (10) terms in 2-D (3-D). The status is
     TOO_FEW for fewer than 6 (10) neighbours, and SINGULAR where they lie on one conic (quadric), or so near to one that
     the terms of first and second degree reproduce the constant but for a hundredth of its square: round-off in the
-    weights is then magnified a hundred times, although they may be small. The fallback is the kernel average.
+    weights is then magnified a hundred times, although they may be small. The fallbacks are those of
+    :class:`LinearMLS`.
 
     Attributes
     ----------
     amplification
-        largest sum of absolute weights; above it the kernel average is used.
+        largest sum of absolute weights; above it the fallback is used.
+    fallback
+        "kernel-average", or "rank-revealing": linear along the directions in which the neighbours are spread.
     """
 
-    amplification: float = 3.0
-    """largest accepted sum |Phi_j|, the factor by which noise may be amplified"""
-
     traits = Traits(reproduces_degree=2, fewest_points=(6, 10), order=_QUADRATIC)
-
-    def __post_init__(self) -> None:
-        _check_amplification(self.amplification)
-
-    def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
-        """Return the weights function."""
-        return _least_squares(2, kernel, dim, self.amplification)
 
 
 def _least_squares(degree: int, kernel: CompiledKernel, dim: int, amplification: float) -> WeightsFunction:
@@ -173,8 +188,3 @@ def _least_squares(degree: int, kernel: CompiledKernel, dim: int, amplification:
         return OK
 
     return weights
-
-
-def _check_amplification(value: float) -> None:
-    if not value >= 1.0:
-        raise ValueError(f"amplification must be a number of at least 1, since the weights sum to one; got {value!r}")
