@@ -9,6 +9,7 @@ import hypothesis.core
 import numba
 import numpy as np
 import pytest
+from scipy.optimize import nnls
 
 from sphframe import (
     DRY,
@@ -24,6 +25,7 @@ from sphframe import (
     local_array,
 )
 from sphframe.testing import BrokenPromiseError, checks_of
+from sphframe.testing.interpolators.declaration import check_fewest_points
 
 Factory = Callable[[CompiledKernel, int], WeightsFunction]
 
@@ -322,6 +324,48 @@ def unlimited(kernel, dim):
 @wrong("a rank decided by round-off", "rank", **LINEAR)
 def any_pivot(kernel, dim):
     return first_order(kernel, dim, thinnest=0.0)
+
+
+def slopes_by_round_off(kernel, dim, smallest=0.0):
+    """Linear along every direction whose eigenvalue is larger than ``smallest``."""
+
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        shares = kernel_values * volumes / (kernel_values * volumes).sum()
+        mean = shares @ offsets
+        away = offsets - mean
+        values, vectors = np.linalg.eigh((shares * away.T) @ away)
+        kept = values > smallest * support**2
+        slope = (vectors[:, kept] / values[kept]) @ (vectors[:, kept].T @ mean)
+        out[:] = shares * (1.0 - away @ slope)
+        return OK
+
+    return weights
+
+
+@wrong("a fallback whose rank is decided by round-off", "rank", fallback=slopes_by_round_off, **LINEAR)
+def slopes_across(kernel, dim):
+    return first_order(kernel, dim)
+
+
+def slope_along_the_longest_axis(kernel, dim):
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        shares = kernel_values * volumes / (kernel_values * volumes).sum()
+        mean = shares @ offsets
+        variances = shares @ (offsets - mean) ** 2
+        a = int(np.argmax(variances))
+        out[:] = shares
+        if variances[a] > 1e-3 * support**2:
+            out[:] *= 1.0 - (offsets[:, a] - mean[a]) * mean[a] / variances[a]
+        return OK
+
+    return weights
+
+
+@wrong(
+    "a fallback that is linear along an axis", "rotation_invariance", fallback=slope_along_the_longest_axis, **LINEAR
+)
+def slope_along_an_axis(kernel, dim):
+    return first_order(kernel, dim)
 
 
 @wrong("a thickness measured along the axes", "rank", **LINEAR)
@@ -651,6 +695,17 @@ def jumps(kernel, dim):
     return weighted(lambda s, v, w, j: v * w * (1.0 if s < 0.5 else 0.7))
 
 
+@wrong("a weight that jumps by 30 % at R/2, in least squares", "continuity", **LINEAR)
+def jumps_in_least_squares(kernel, dim):
+    right = first_order(kernel, dim)
+
+    def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+        lowered = np.where(distances < 0.5 * support, kernel_values, 0.7 * kernel_values)
+        return right(offsets, distances, lowered, volumes, support, lift, out)
+
+    return weights
+
+
 @wrong("a particle that enters with a weight", "continuity", **AVERAGE, kernel_independent=True)
 def enters(kernel, dim):
     return weighted(lambda s, v, w, j: v / (s * s + 0.01))
@@ -742,7 +797,16 @@ def test_there_are_enough_wrong_methods():
     assert len(CASES) >= 25
 
 
-PLAIN = ("rank", "kernel", "additivity", "locality", "continuity", "interpolates_particles", "fewest_points")
+PLAIN = (
+    "rank",
+    "rotation_invariance",
+    "kernel",
+    "additivity",
+    "locality",
+    "continuity",
+    "interpolates_particles",
+    "fewest_points",
+)
 """checks that run here in plain Python, since the compilation of each wrong method would take longer"""
 
 
@@ -761,6 +825,27 @@ def test_is_caught_with_every_seed(mistake, seeds, monkeypatch):
     message = str(caught.value)
     assert message.startswith("Wrong(")
     assert len(message) > 40
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_a_convex_linear_method_may_refuse_points_outside_the_hull(dim, monkeypatch):
+    """Linear fields are reproduced by weights of at least zero in the hull of the particles alone."""
+
+    def convex(kernel, dim):
+        def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+            if len(out) < dim + 1:
+                return TOO_FEW
+            matrix = np.vstack([offsets.T / support, np.ones(len(out))])
+            out[:], residual = nnls(matrix, np.append(np.zeros(dim), 1.0))
+            return OK if residual < 1e-9 else SINGULAR
+
+        return weights
+
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", True)
+    traits = Traits(reproduces_degree=1, fewest_points=(3, 4), non_negative=True, range_restricted=True)
+    check_fewest_points(Wrong(convex, traits), dim)
+    with pytest.raises(BrokenPromiseError, match=r"with [0-9]+ well-placed neighbours"):
+        check_fewest_points(Wrong(convex, Traits(reproduces_degree=1, fewest_points=(3, 4))), dim)
 
 
 def test_the_smallest_cloud_can_be_pasted_into_a_test():
