@@ -105,7 +105,7 @@ def picture(field: str, found: Mapping[str, Mapping[int, xr.Dataset]]) -> studie
     for axes, title in ((velocity, "velocity (%)"), (pressure, "pressure (%)")):
         studies.tidy(axes, title=title, xlabel="spacings over the unit of length")
     studies.tidy(time, title="velocity (%), finest run", xlabel="time (s)")
-    velocity.legend(fontsize=6)
+    velocity.legend(fontsize=6, loc="lower left")
     return studies.picture(field, f"{FIELDS[field]}: errors against resolution and time.", figure)
 
 
