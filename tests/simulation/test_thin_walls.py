@@ -189,6 +189,36 @@ def test_a_gate_is_lifted(tmp_path):
     assert (right_of & left).sum() > 20
 
 
+def test_nothing_crosses_a_curved_plate_that_moves(tmp_path):
+    """A bowed line is pushed through still water, which flows past its lower end; by 1.5 spacings within 0.3 s."""
+    low, path = 0.06, tmp_path / "push.txt"
+    times = np.linspace(0.0, 0.6, 61)
+    shifts = 0.06 * np.sin(0.5 * np.pi * times / 0.6) ** 2
+    np.savetxt(path, np.column_stack([times, shifts, 0.0 * times]), delimiter=",")
+    heights = np.linspace(low, 0.46, 24)
+    across = 0.5 + 0.06 * np.sin(np.pi * (heights - low) / 0.4)
+    line = [(float(x), float(y)) for x, y in zip(across, heights, strict=True)]
+    wet = [*(point for point in line if point[1] < 0.3), (float(np.interp(0.3, heights, across)), 0.3)]
+    fluid = [{"shape": "polygon", "points": [(x, low), *wet, (x, 0.3)]} for x in (0, 1)]
+    wall = {"shape": "polyline", "name": "plate", "points": line, "body": "plate"}
+    bodies = {"plate": {"name": "displacement-series", "path": str(path)}}
+    simulation = made([wall], [*fluid, region((0, 0), (1, low))], bodies=bodies)
+
+    def is_left():
+        x, y = simulation.fields().position.T
+        return x < np.interp(simulation.time, times, shifts) + np.interp(y, heights, across)
+
+    left, above = is_left(), simulation.fields().position[:, 1] > low + 2 * SPACING
+    while simulation.time < 0.3:
+        simulation.advance()
+        if simulation.step % 40 == 0:
+            np.testing.assert_array_equal(is_left()[above], left[above])
+    assert simulation.particles_outside() == 0
+    load = simulation.wall_loads()["plate"]
+    assert load.force[0] < -20.0  # the water resists
+    assert load.force_by_pressure[0] == pytest.approx(load.force[0], abs=0.1 * RHO_G * 0.3 * SPACING)
+
+
 def test_a_restored_run_with_a_moving_gate_has_the_same_bits(tmp_path):
     one, other = gate(tmp_path), gate(tmp_path)
     advance(one, 0.08)
