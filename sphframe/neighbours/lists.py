@@ -446,7 +446,7 @@ def _without_repeats(members, begin, middle, end):  # type: ignore[no-untyped-de
     return kept
 
 
-@numba.njit(error_model="numpy", forceinline=True)
+@numba.njit(error_model="numpy")
 def _gather(  # type: ignore[no-untyped-def]
     rows, dim, box, radius, grid, starts, order, row, shifts, first, last, selected, repeated, alone, members, begin
 ):
