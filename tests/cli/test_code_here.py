@@ -1,4 +1,4 @@
-"""A method in a file of the working directory is found by ``module:attribute``, as the tutorial says."""
+"""A method and a case in a file of the working directory are found by ``module:attribute``, as the tutorial says."""
 
 import os
 import subprocess
@@ -7,7 +7,10 @@ from pathlib import Path
 
 METHOD = """
 from dataclasses import dataclass
-from sphframe import BoundaryInterpolator, OK, Traits
+from sphframe import BoundaryInterpolator, HydrostaticTank, OK, Traits
+
+class Tank(HydrostaticTank):
+    pass
 
 @dataclass(frozen=True)
 class Mean(BoundaryInterpolator):
@@ -35,7 +38,7 @@ def test_run_and_verify_find_a_module_in_the_working_directory(tmp_path: Path) -
     assert absent.returncode == 2
     assert "has no attribute 'Absent'" in absent.stderr
     ran = sphframe(
-        "run", "hydrostatic-tank", "--set", "particle_spacing=0.05", "--until", "0.01", "--interpolator", "of_mine:Mean"
+        "run", "of_mine:Tank", "--set", "particle_spacing=0.05", "--until", "0.01", "--interpolator", "of_mine:Mean"
     )
     assert ran.returncode == 0, ran.stderr
-    assert list(tmp_path.glob("hydrostatic-tank*.nc"))
+    assert list(tmp_path.glob("*.nc"))

@@ -28,17 +28,17 @@ def check_solver_agrees(method: BoundaryInterpolator, dim: int) -> None:
 
     The pool is two-dimensional: what the solver does with a method does not depend on the dimension. Its walls have no
     slip: a ghost has the pressure that is interpolated to it, and the velocity that is interpolated to its evaluation
-    point, reversed. The smoothing length is once that of most runs, and once so large that there are up to 150
-    neighbours.
+    point, reversed. The smoothing length is once that of most runs, and once so large that there are more than 300
+    neighbours, in a pool of twice the size.
     """
     if dim != 2:
         return
-    for ratio in (1.3, 2.5):
-        _compare_pool(method, ratio * _SPACING)
+    for ratio, depth in ((1.3, 7), (4.0, 14)):
+        _compare_pool(method, ratio * _SPACING, depth)
 
 
-def _compare_pool(method: BoundaryInterpolator, smoothing_length: float) -> None:
-    boundary, rows = _filled_pool(method, smoothing_length)
+def _compare_pool(method: BoundaryInterpolator, smoothing_length: float, depth: int) -> None:
+    boundary, rows = _filled_pool(method, smoothing_length, depth)
     n, columns = len(rows) - boundary.count, Columns.of(2)
     fluid, ghosts, lift = rows[:n], rows[n:], boundary.lift_of_weights
     around = fluid[:, columns.position], fluid[:, columns.volume]
@@ -91,7 +91,7 @@ def check_shear(method: BoundaryInterpolator, dim: int) -> None:
     """A shear flow u = y above a wall without slip gives all ghosts behind it a velocity against the flow."""
     if dim != 2:
         return
-    boundary, rows = _filled_pool(method, 1.3 * _SPACING, shear=True)
+    boundary, rows = _filled_pool(method, 1.3 * _SPACING, 7, shear=True)
     n, columns = len(rows) - boundary.count, Columns.of(2)
     ghosts, wet = rows[n:], boundary.statuses != DRY
     below = wet & (ghosts[:, 1] < 0.0) & (np.abs(ghosts[:, 0] - 7 * _SPACING) < 4 * _SPACING)
@@ -104,9 +104,12 @@ def check_shear(method: BoundaryInterpolator, dim: int) -> None:
 
 
 def _filled_pool(
-    method: BoundaryInterpolator, smoothing_length: float, *, shear: bool = False
+    method: BoundaryInterpolator, smoothing_length: float, depth: int, *, shear: bool = False
 ) -> tuple[Boundary, Array]:
-    """A jittered pool with a free surface in the corner of two walls, without gravity; its ghosts are filled."""
+    """A jittered pool with a free surface in the corner of two walls, without gravity; its ghosts are filled.
+
+    It is ``depth`` particles deep and twice as long.
+    """
     columns = Columns.of(2)
     chosen = create("kernels", "gaussian")
     kernel = compiled_kernel(chosen, 2)
@@ -115,7 +118,7 @@ def _filled_pool(
         [PolygonWall(points=((0.0, 0.2), (0.0, 0.0), (0.3, 0.0)))],
         {},
         method.traits.evaluation_point,
-        fluid=[Box(lower=(0.0, 0.0), upper=(14 * _SPACING, 7 * _SPACING))],
+        fluid=[Box(lower=(0.0, 0.0), upper=(2 * depth * _SPACING, depth * _SPACING))],
         spacing=_SPACING,
         support=support,
         no_slip=True,
@@ -124,7 +127,7 @@ def _filled_pool(
     other = FixedGhosts().velocity_interpolator(method)
     context = WallContext(kernel, 2, method, no_slip=True, corrected_velocity=False, velocity_interpolator=other)
     filling = Filling(method, kernel, parts, FixedGhosts().parts(context), velocity_interpolator=other)
-    fluid = _fluid_rows(columns)
+    fluid = _fluid_rows(columns, depth)
     if shear:
         fluid[:, columns.velocity] = fluid[:, [1]] * [1.0, 0.0]
     n = len(fluid)
@@ -140,10 +143,10 @@ def _filled_pool(
     return boundary, rows
 
 
-def _fluid_rows(columns: Columns) -> Array:
-    """Rows of 14 by 7 particles in random order, with pressures between 5 and 6 kPa."""
+def _fluid_rows(columns: Columns, depth: int) -> Array:
+    """Rows of 2 ``depth`` by ``depth`` particles in random order, with pressures between 5 and 6 kPa."""
     rng = np.random.default_rng(5)
-    x, y = np.meshgrid(np.arange(14), np.arange(7), indexing="ij")
+    x, y = np.meshgrid(np.arange(2 * depth), np.arange(depth), indexing="ij")
     position = (np.column_stack([x.ravel(), y.ravel()]) + 0.5 + rng.uniform(-0.2, 0.2, (x.size, 2))) * _SPACING
     position = position[rng.permutation(len(position))]
     rows: Array = columns.zeros(len(position))
