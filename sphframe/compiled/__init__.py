@@ -9,7 +9,7 @@ from sphframe.compiled.fma import fma
 from sphframe.compiled.lanes import LANES
 from sphframe.compiled.local_array import local_array
 from sphframe.compiled.specialise import compile_part, fingerprint, specialise
-from sphframe.compiled.threaded import threaded
+from sphframe.compiled.threaded import threaded, threaded_if_long
 from sphframe.compiled.threads import default_threads, prefer_fair_threads, use_threads
 
 __all__ = [
@@ -27,6 +27,7 @@ __all__ = [
     "specialise",
     "squared_distance",
     "threaded",
+    "threaded_if_long",
     "use_threads",
 ]
 

@@ -13,7 +13,7 @@ import numba
 import numpy as np
 
 from sphframe.arrays import Array, IntArray
-from sphframe.compiled import threaded
+from sphframe.compiled import threaded_if_long
 
 
 class Grid(NamedTuple):
@@ -58,7 +58,7 @@ def cell_number(shape, row, c):  # type: ignore[no-untyped-def]
     return row * shape[2] + (shape[2] - 1 - c if row % 2 else c)
 
 
-@threaded
+@threaded_if_long
 def sort_by_cell(rows, dim, grid, cells, tallies, starts, order):  # type: ignore[no-untyped-def]
     """Sort rows by cell, keeping the order within one: ``order[starts[c]:starts[c + 1]]`` are the members of cell c.
 
@@ -80,13 +80,7 @@ def sort_by_cell(rows, dim, grid, cells, tallies, starts, order):  # type: ignor
                 if not (offset >= 0.0 and offset < grid.shape[axis]):
                     inside = False
                     break
-                index = int(offset)
-                if axis == 0:
-                    a = index
-                elif axis == 1:
-                    b = index
-                else:
-                    c = index
+                a, b, c = b, c, int(offset)
             cells[i] = cell_number(grid.shape, row_number(grid.shape, a, b), c) if inside else -1
             if inside:
                 tally[cells[i]] += 1
@@ -106,7 +100,7 @@ def sort_by_cell(rows, dim, grid, cells, tallies, starts, order):  # type: ignor
                 tally[cells[i]] += 1
 
 
-@threaded
+@threaded_if_long
 def put_in_order(rows, order, spare):  # type: ignore[no-untyped-def]
     """Put the first rows of ``rows`` into ``order`` (n,), by way of ``spare``, which is at least as long and wide."""
     for i in numba.prange(order.shape[0]):

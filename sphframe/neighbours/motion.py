@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numba
 
-from sphframe.compiled import threaded
+from sphframe.compiled import threaded_if_long
 
 
 class LargestMotion(NamedTuple):
@@ -15,7 +15,7 @@ class LargestMotion(NamedTuple):
     displacement: float
 
 
-@threaded
+@threaded_if_long
 def largest_motion(rows, reference, dim):  # type: ignore[no-untyped-def]
     """Return the largest speed, m/s, and displacement from ``reference`` (n, dim), m, of the first n ``rows``."""
     speed2 = 0.0

@@ -15,7 +15,7 @@ from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.operator import operator_of, row_starts
 from sphframe.boundary.promises import first_contradiction
 from sphframe.cases import Case
-from sphframe.compiled import threaded
+from sphframe.compiled import threaded_if_long
 from sphframe.errors import SimulationError
 from sphframe.interfaces import BoundaryInterpolator, Kernel, Status
 from sphframe.registry import Entry, find
@@ -244,7 +244,7 @@ def check_traits(
         )
 
 
-@threaded
+@threaded_if_long
 def _check_fluid(rows, n, columns, lower, upper, lowest, highest):  # type: ignore[no-untyped-def]
     """Return the first of ``n`` rows that is not finite, the first one outside the box, and the first one with a
     density outside ``lowest`` .. ``highest`` and the number of those. A first one that does not exist is n."""

@@ -2,10 +2,10 @@
 
 import numba
 
-from sphframe.compiled import threaded
+from sphframe.compiled import threaded_if_long
 
 
-@threaded
+@threaded_if_long
 def advance_state(rows, start, rates, interval):  # type: ignore[no-untyped-def]
     """Set y = y0 + dt f in ``rows`` for y0 = ``start`` and f = ``rates`` (n, 2 dim + 1)."""
     for i in numba.prange(start.shape[0]):
@@ -13,7 +13,7 @@ def advance_state(rows, start, rates, interval):  # type: ignore[no-untyped-def]
             rows[i, k] = start[i, k] + interval * rates[i, k]
 
 
-@threaded
+@threaded_if_long
 def add_columns(rows, rates, count, first, end, shift, factor):  # type: ignore[no-untyped-def]
     """Add ``factor`` times the columns from ``first + shift`` on of ``rates`` to ``first`` .. ``end`` of ``rows``.
 
