@@ -91,7 +91,7 @@ def check_shear(method: BoundaryInterpolator, dim: int) -> None:
     """A shear flow u = y above a wall without slip gives all ghosts behind it a velocity against the flow."""
     if dim != 2:
         return
-    boundary, rows = _filled_pool(method, 1.3 * _SPACING, 7, shear=True)
+    boundary, rows = _filled_pool(method, 1.3 * _SPACING, shear=True)
     n, columns = len(rows) - boundary.count, Columns.of(2)
     ghosts, wet = rows[n:], boundary.statuses != DRY
     below = wet & (ghosts[:, 1] < 0.0) & (np.abs(ghosts[:, 0] - 7 * _SPACING) < 4 * _SPACING)
@@ -104,7 +104,7 @@ def check_shear(method: BoundaryInterpolator, dim: int) -> None:
 
 
 def _filled_pool(
-    method: BoundaryInterpolator, smoothing_length: float, depth: int, *, shear: bool = False
+    method: BoundaryInterpolator, smoothing_length: float, depth: int = 7, *, shear: bool = False
 ) -> tuple[Boundary, Array]:
     """A jittered pool with a free surface in the corner of two walls, without gravity; its ghosts are filled.
 
