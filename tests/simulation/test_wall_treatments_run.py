@@ -28,7 +28,7 @@ PLAIN, IN_SPACE = {}, {"dimension": 3}
 VARIANTS = [
     *((name, PLAIN) for name in TREATMENTS if name not in ON_THREADS),
     *((name, IN_SPACE) for name in ("fixed-ghosts", "dynamic-2007", "lennard-jones", "mirror-images", "pair-mirror")),
-    *((name, {"tension": "none"}) for name in ("fixed-ghosts", "edge-integrals", "mirror-images", "pair-mirror")),
+    *((name, {"tension": "free"}) for name in ("fixed-ghosts", "edge-integrals", "mirror-images", "pair-mirror")),
     *((name, {"slip": "free"}) for name in ("fixed-ghosts", "mdbc-2025", "riemann-2017", "usaw-2013")),
     ({"name": "akinci-2012", "row": True}, PLAIN),
     ({"name": "distance-ratio", "continuity": "ratio", "cap": 1.5}, PLAIN),
@@ -44,7 +44,7 @@ VARIANTS = [
 
 
 def described(value):
-    if value in ({}, ()):
+    if value == {}:
         return "default"
     return ",".join(f"{key}={v}" for key, v in value.items()) if isinstance(value, dict) else None
 
