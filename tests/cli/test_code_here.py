@@ -41,4 +41,4 @@ def test_run_and_verify_find_a_module_in_the_working_directory(tmp_path: Path) -
         "run", "of_mine:Tank", "--set", "particle_spacing=0.05", "--until", "0.01", "--interpolator", "of_mine:Mean"
     )
     assert ran.returncode == 0, ran.stderr
-    assert list(tmp_path.glob("*.nc"))
+    assert (tmp_path / "Tank-Mean.nc").is_file()
