@@ -26,7 +26,7 @@ class WallStates:
     def __init__(self, boundary: Boundary, rate: RateFunction | None, parts: dict[str, Any]) -> None:
         self._state = np.zeros(0) if rate is None else boundary.wall_state
         self._boundary = boundary
-        self._rates, self._start, self._total = (np.zeros_like(self._state) for _ in range(3))
+        self._rates, self._start, self.total = (np.zeros_like(self._state) for _ in range(3))
         self._loop = None if rate is None else specialise(wall_rates, {**parts, "RATE": rate})
         self._scalars, self._vectors = np.empty((CHUNKS, 8, 5)), np.empty((CHUNKS, 2, 8, boundary.dim))
 
@@ -45,7 +45,7 @@ class WallStates:
 
     def hold(self) -> None:
         """Remember the states as the start of the step."""
-        self._start[:], self._total[:] = self._state, 0.0
+        self._start[:], self.total[:] = self._state, 0.0
 
     def advance(self, interval: float) -> None:
         """y = y0 + interval * f."""
@@ -53,11 +53,11 @@ class WallStates:
 
     def accumulate(self, weight: float) -> None:
         """total = total + weight * f."""
-        self._total += weight * self._rates
+        self.total += weight * self._rates
 
     def advance_total(self, interval: float) -> None:
         """y = y0 + interval * total."""
-        self._state[:] = self._start + interval * self._total
+        self._state[:] = self._start + interval * self.total
 
     def update_density(self, interval: float) -> None:
         """y = y + interval * f."""

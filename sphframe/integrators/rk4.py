@@ -22,14 +22,9 @@ class RungeKutta4(Integrator):
         """Advance one step."""
         system.hold()
         system.evaluate(time)
-        system.accumulate(1.0 / 6.0)
-        system.advance(0.5 * time_step)
-        system.evaluate(time + 0.5 * time_step)
-        system.accumulate(1.0 / 3.0)
-        system.advance(0.5 * time_step)
-        system.evaluate(time + 0.5 * time_step)
-        system.accumulate(1.0 / 3.0)
-        system.advance(time_step)
-        system.evaluate(time + time_step)
+        for weight, part in ((1.0 / 6.0, 0.5), (1.0 / 3.0, 0.5), (1.0 / 3.0, 1.0)):
+            system.accumulate(weight)
+            system.advance(part * time_step)
+            system.evaluate(time + part * time_step)
         system.accumulate(1.0 / 6.0)
         system.advance_total(time_step)

@@ -12,7 +12,8 @@ class System(Protocol):
 
     A one-step scheme of Runge-Kutta type calls hold, evaluate, accumulate, advance and advance_total; a splitting
     scheme calls evaluate_density and evaluate_acceleration, and advances position (drift), velocity (kick) and density
-    one after the other.
+    one after the other. A multi-step scheme stores totals, which stay from step to step, are put in order with the
+    particles, and are part of checkpoints.
     """
 
     def evaluate(self, time: float) -> None:
@@ -29,6 +30,15 @@ class System(Protocol):
 
     def advance_total(self, interval: float) -> None:
         """y = y0 + interval * total."""
+
+    def store(self, place: int, time: float) -> None:
+        """Store the total at ``place``, 0 to ``memory - 1`` of the integrator, as that of ``time``, s."""
+
+    def stored_time(self, place: int) -> float | None:
+        """Return the time of the total stored at ``place``, s; None before the first."""
+
+    def accumulate_stored(self, place: int, weight: float) -> None:
+        """total = total + weight * (the total stored at ``place``)."""
 
     def evaluate_density(self, time: float) -> None:
         """Compute the density rates of the present state, with the density gradient of the last acceleration."""
@@ -57,6 +67,8 @@ class Integrator(ABC):
     """largest stable c0 dt / h of the linearised scheme on a lattice"""
     courant_number: ClassVar[float]
     """recommended ``(c0 + |u|max) dt / h``"""
+    memory: ClassVar[int] = 0
+    """number of totals that are stored from step to step; an integrator keeps no state of its own"""
 
     @abstractmethod
     def step(self, system: System, time: float, time_step: float) -> None:

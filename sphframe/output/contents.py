@@ -134,13 +134,7 @@ def _dimensions(simulation: RunView) -> dict[str, int | None]:
     outlines = [line for wall in scene.walls for line in wall.outline()]
     triangles = sum(len(wall.triangles()) for wall in scene.walls)
     lengths = {
-        "space": case.dimension,
-        "probe": len(scene.probes),
-        "gauge": len(scene.gauges),
-        "wall": len(scene.walls),
-        "part": len(scene.wall_parts),
-        "body": len(scene.bodies),
-        "status": len(Status),
+        **{name: len(names) for name, names in _names(simulation).items()},
         "outline": len(outlines),
         "node": sum(map(len, outlines)),
         "triangle": triangles,
@@ -262,10 +256,8 @@ def _fill_start(file: netCDF4.Dataset, simulation: RunView) -> None:
 def _attributes(simulation: RunView) -> dict[str, Any]:
     """Global attributes: everything needed to repeat the run, and the scales for dimensionless numbers."""
     case, scene = simulation.case, simulation.scene
-    components = {}
-    for field in COMPONENT_KINDS:
-        chosen = getattr(case, field)
-        components[field] = {"name": chosen.name, **chosen.options}
+    chosen = {field: getattr(case, field) for field in COMPONENT_KINDS}
+    components = {field: {"name": component.name, **component.options} for field, component in chosen.items()}
     versions, created = distributions(case), datetime.now(UTC).isoformat(timespec="seconds")
     return {
         "Conventions": CONVENTIONS,
@@ -293,6 +285,5 @@ def _attributes(simulation: RunView) -> dict[str, Any]:
 
 
 def _text_length(name: str, simulation: RunView) -> int:
-    if name == "run_message":
-        return _MESSAGE_LENGTH
-    return max(1, *(len(text.encode()) for text in _names(simulation)[name]))
+    texts = [] if name == "run_message" else [len(text.encode()) for text in _names(simulation)[name]]
+    return max(1, *texts) if texts else _MESSAGE_LENGTH

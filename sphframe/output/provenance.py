@@ -30,10 +30,8 @@ def code(case: "Case") -> dict[str, str]:
     """Return a hash of the source of each plugin of ``case``, which its author may change without its version."""
     found = {}
     for kind, name in _chosen(case):
-        for entry in registry.available(kind):
-            if entry.name == name:
-                name = entry.value
-        package = name.partition(":")[0].partition(".")[0]
+        address = next((entry.value for entry in registry.available(kind) if entry.name == name), name)
+        package = address.partition(":")[0].partition(".")[0]
         if package != "sphframe":
             found[f"code of {package}"] = _hash_of(package)
     return found

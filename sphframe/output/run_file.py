@@ -191,10 +191,9 @@ class RunFile:
         try:
             yield
         except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError
+            kept = "nothing was written"
             if self.samples or self.frames:
                 kept = f"{self.frames} frames and {self.samples} samples written before are intact in {self.path}"
-            else:
-                kept = "nothing was written"
             self._abandon()
             cause, remedy = _cause_and_remedy(error)
             raise OutputError(f"cannot write {self.path}: {cause}; {kept}. To fix it: {remedy}") from error
@@ -239,8 +238,6 @@ def _check_belongs(dataset: netCDF4.Dataset, checkpoint: Checkpoint, path: Path)
 def _cause_and_remedy(error: Exception) -> tuple[str, str]:
     full = getattr(error, "errno", None) in _DISK_FULL or any(os.strerror(n) in str(error) for n in _DISK_FULL)
     if full:
-        return (
-            "the disk is full or the size limit is reached",
-            "free some space or choose another --output, or a larger frame_interval",
-        )
+        remedy = "free some space or choose another --output, or a larger frame_interval"
+        return "the disk is full or the size limit is reached", remedy
     return str(error), "check the folder and its permissions, or choose another --output"

@@ -79,12 +79,8 @@ class BodyContacts:
         for wall, owner in enumerate(boundary.wall_body.tolist()):
             for k in moving:
                 once = owner not in moving or owner > k  # each pair of bodies
-                if once and owner != k and self._are_apart(k, wall, rest):
+                if once and owner != k and np.all(self._touching(k, wall, rest)[2] < _DRAWN_INTO * spacing):
                     self._pairs.append((k, wall))
-
-    def _are_apart(self, k: int, wall: int, rest: Sequence[Motion]) -> bool:
-        """Whether they are not drawn into each other."""
-        return float(self._touching(k, wall, rest)[2].max(initial=0.0)) < _DRAWN_INTO * self._spacing
 
     def _encloses(self, body: int, panels: Panels) -> bool:
         """Whether the walls of a body enclose a solid: their area vectors add up to zero."""
@@ -123,9 +119,8 @@ class BodyContacts:
         found = []
         for own in (surface for surface in self._surfaces if surface.body == k):
             for tested, other, sense in ((own, self._surfaces[wall], 1.0), (self._surfaces[wall], own, -1.0)):
-                points, normal, depth = self._behind(
-                    other, self._to_world(tested.points, tested.body, motions), motions
-                )
+                present = self._to_world(tested.points, tested.body, motions)
+                points, normal, depth = self._behind(other, present, motions)
                 found.append((points, sense * normal, depth))
         points, normals, depths = (np.concatenate(parts) for parts in zip(*found, strict=True))
         return points, normals, depths

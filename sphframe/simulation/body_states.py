@@ -41,7 +41,7 @@ class BodyStates:
         self.motions = [Motion(np.zeros(size), np.zeros(size), np.zeros(size)) for _ in range(count)]
         self._rates = np.zeros((2, count, size))
         self._start = np.zeros((2, count, size))
-        self._total = np.zeros((2, count, size))
+        self.total = np.zeros((2, count, size))
         self._loads = np.zeros((count, size))
         self._time = 0.0
 
@@ -113,7 +113,7 @@ class BodyStates:
     def hold(self) -> None:
         """Remember the state as the start of the step."""
         self._start[0], self._start[1] = self.position, self.velocity
-        self._total[:] = 0.0
+        self.total[:] = 0.0
 
     def advance(self, interval: float) -> None:
         """y = y0 + interval * f."""
@@ -121,11 +121,11 @@ class BodyStates:
 
     def accumulate(self, weight: float) -> None:
         """total = total + weight * f."""
-        self._total += weight * self._rates_since_start()
+        self.total += weight * self._rates_since_start()
 
     def advance_total(self, interval: float) -> None:
         """y = y0 + interval * total."""
-        self._advance_from_start(interval, self._total)
+        self._advance_from_start(interval, self.total)
 
     def drift(self, interval: float) -> None:
         """x = x + interval * u."""

@@ -131,6 +131,7 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     filling = initial_filling(case, components)
     driving = Driving(parameters, dim, components.body_force, scene.sources)
     system = FluidSystem(rows, boundary, filling, lists, loops, states, parts, parameters, contacts, driving, channel)
+    system.make_room(components.integrator.memory)
     system.move_walls(0.0)
     system.find_neighbours()
     system.evaluate(0.0)

@@ -87,10 +87,8 @@ class Observation:
         return self._fields(self.system.rows[: self.fluid_count])
 
     def _fields(self, rows: Array) -> Fields:
-        columns = self.columns
-        return Fields(
-            rows[:, columns.position], rows[:, columns.velocity], rows[:, columns.density], rows[:, columns.pressure]
-        )
+        of = self.columns
+        return Fields(rows[:, of.position], rows[:, of.velocity], rows[:, of.density], rows[:, of.pressure])
 
     def fields(self) -> Fields:
         """Return copies of the fluid's fields in the particles' original order; NaN for removed particles."""
@@ -165,11 +163,10 @@ class Observation:
         fields = self._fluid()
         mass = self.system.rows[: self.fluid_count, self.columns.mass]
         compliance = mass / (fields.density**2 * self.sound_speed**2)
+        place = fields.position + self.system.turns * self.boundary.periods.length
         return {
             "kinetic": 0.5 * float(np.einsum("i,ij,ij->", mass, fields.velocity, fields.velocity)),
-            "potential": self._potential_energy(
-                mass, fields.position + self.system.turns * self.boundary.periods.length
-            ),
+            "potential": self._potential_energy(mass, place),
             "internal": 0.5 * float(np.einsum("i,i,i->", compliance, fields.pressure, fields.pressure)),
         }
 

@@ -1,5 +1,9 @@
 """Simulation: what integrators are made of: updates of the packed rows, and of the bodies and walls with them."""
 
+from collections.abc import Sequence
+
+import numpy as np
+
 from sphframe.arrays import Array
 from sphframe.boundary.wall_states import WallStates
 from sphframe.interfaces import System
@@ -19,6 +23,7 @@ class PackedSystem(System):
     _start: Array
     _total: Array
     _pressure_is_current: bool
+    stored: Sequence[dict[str, Array]] = ()
 
     @property
     def fluid_count(self) -> int:
@@ -52,16 +57,36 @@ class PackedSystem(System):
         self.wall_states.advance_total(interval)
         self._pressure_is_current = False
 
+    def make_room(self, memory: int) -> None:
+        """Make room for as many totals that are stored from step to step."""
+        self.stored = [{name: np.full_like(a, -1.0) for name, a in self._totals().items()} for _ in range(memory)]
+
+    def _totals(self, time: float = 0.0) -> dict[str, Array]:
+        fluid, bodies, walls = self._total, self.bodies.total, self.wall_states.total
+        return {"fluid": fluid, "bodies": bodies, "walls": walls, "time": np.array([time])}
+
+    def store(self, place: int, time: float) -> None:
+        """Store the total as that of ``time``, s."""
+        for name, total in self._totals(time).items():
+            self.stored[place][name][:] = total
+
+    def stored_time(self, place: int) -> float | None:
+        """Return the time of a stored total, s; None before the first."""
+        return None if (time := float(self.stored[place]["time"][0])) < 0.0 else time
+
+    def accumulate_stored(self, place: int, weight: float) -> None:
+        """total = total + weight * stored total."""
+        for name, total in self._totals().items():
+            total += weight * self.stored[place][name]
+
     def drift(self, interval: float) -> None:
         """x = x + interval * u."""
-        columns = self.columns
-        add_columns(self.rows, self.rows, self.fluid_count, 0, columns.dim, columns.u, interval)
+        add_columns(self.rows, self.rows, self.fluid_count, 0, self.columns.dim, self.columns.u, interval)
         self.bodies.drift(interval)
 
     def kick(self, interval: float) -> None:
         """u = u + interval * acceleration."""
-        columns = self.columns
-        add_columns(self.rows, self.rates, self.fluid_count, columns.u, columns.density, 0, interval)
+        add_columns(self.rows, self.rates, self.fluid_count, self.columns.u, self.columns.density, 0, interval)
         self.bodies.kick(interval)
 
     def update_density(self, interval: float) -> None:

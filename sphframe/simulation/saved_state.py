@@ -5,7 +5,7 @@ import numpy as np
 from sphframe.arrays import Array, Arrays
 from sphframe.errors import InputError
 
-_PER_FLUID_PARTICLE = {"ids", "rates", "gradient", "turns", "lists.fluid", "channel.waiting"}
+_PER_FLUID_PARTICLE = {"ids", "rates", "gradient", "turns", "channel.waiting"}
 
 
 def check_saved_state(
@@ -28,8 +28,9 @@ def check_saved_state(
     count = len(saved.get("ids", ()))
     expected = {name: array.shape for name, array in own.items()}
     expected["rows"] = (count + ghost_count, *expected["rows"][1:])
-    for name in _PER_FLUID_PARTICLE & expected.keys():
-        expected[name] = (count, *expected[name][1:])
+    for name, shape in expected.items():
+        if name in _PER_FLUID_PARTICLE or name.endswith(".fluid"):
+            expected[name] = (count, *shape[1:])
     if {name: array.shape for name, array in saved.items()} != expected or not 0 < count <= particle_count:
         raise InputError("the saved state belongs to another case: its particles, walls or bodies differ")
     ids, position = saved["ids"], saved["lists.fluid"]

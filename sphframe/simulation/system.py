@@ -91,10 +91,7 @@ class FluidSystem(PackedSystem):
     # neighbours
 
     def find_neighbours(self) -> None:
-        """Put the particles in spatial order, in the box that repeats itself, and list their neighbours.
-
-        Before, particles enter and leave through open ends.
-        """
+        """Let particles pass open ends, put all in order, in the box that repeats itself, and list their neighbours."""
         periods = self.boundary.periods
         if self.channel is not None:
             self._exchange(self.channel)
@@ -105,7 +102,7 @@ class FluidSystem(PackedSystem):
             self.turns += turns
         order = self.lists.sort(self.rows)
         self.turns = self.turns[order] if periods else self.turns
-        for array in (self.rows, self.rates, self.gradient):
+        for array in (self.rows, self.rates, self.gradient, *(totals["fluid"] for totals in self.stored)):
             put_in_order(array, order, self._spare)
         self.ids = self.ids[order]
         self.lists.build(self.rows, self.boundary.points)
@@ -141,6 +138,8 @@ class FluidSystem(PackedSystem):
         self.ids, self.turns = self.ids[kept], self.turns[kept]
         self.rates, self.gradient = self.rates[kept], self.gradient[kept]
         self._start, self._total, self._spare = self._start[kept], self._total[kept], self._spare[kept]
+        for totals in self.stored:
+            totals["fluid"] = totals["fluid"][kept]
         self.lists = self.lists.resized(self.fluid_count)
 
     # evaluation
@@ -253,13 +252,14 @@ class FluidSystem(PackedSystem):
             "bodies": self.bodies.state(),
             "boundary": self.boundary.state(),
             "lists": self.lists.state(),
+            **{f"stored.{place}": totals for place, totals in enumerate(self.stored)},
         }
         if self.channel is not None:
             parts["channel"] = self.channel.state()
         return {
             "ids": self.ids.copy(),
             **{name: getattr(self, name).copy() for name in self._saved},
-            **{f"{part}.{name}": array for part, arrays in parts.items() for name, array in arrays.items()},
+            **{f"{part}.{name}": array.copy() for part, arrays in parts.items() for name, array in arrays.items()},
         }
 
     def restore(self, state: Arrays) -> None:
@@ -276,6 +276,8 @@ class FluidSystem(PackedSystem):
         self.boundary.restore(_part(state, "boundary"))
         for name in self._saved:
             getattr(self, name)[:] = state[name]
+        for place, totals in enumerate(self.stored):
+            totals.update({name: array.copy() for name, array in _part(state, f"stored.{place}").items()})
         self._pressure_is_current = False
 
 

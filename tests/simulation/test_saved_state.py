@@ -13,7 +13,7 @@ from sphframe.geometry import BoxRegion, PolygonWall
 COMPUTED = (
     "_partial_loads",
     "_start",
-    "_total",
+    "total",
     "_spare",
     "_scratch",
     "_scalars",
