@@ -52,7 +52,7 @@ _FIRST_LAYER = 0.625
 """depth over spacing up to which a ghost is of the first layer: it is about 1/2 there, and 3/2 in the next"""
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _behind(rows, i, foot, normal, g, dim, periodic, parameters):  # type: ignore[no-untyped-def]
     """Return how far row ``i`` lies behind the plane of the wall at the foot of ghost ``g``."""
     depth = 0.0
@@ -64,7 +64,7 @@ def _behind(rows, i, foot, normal, g, dim, periodic, parameters):  # type: ignor
     return depth
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _stands_for_wall(rows, i, ghost, foot, g, near, dim, periodic, parameters):  # type: ignore[no-untyped-def]
     """Whether row ``ghost``, with wall point ``foot[g]``, is of the first layer and within ``near`` dx of row ``i``."""
     spacing = parameters.spacing
@@ -73,7 +73,7 @@ def _stands_for_wall(rows, i, ghost, foot, g, near, dim, periodic, parameters): 
     return squared_distance(rows, ghost, foot, g, dim, periodic, parameters) < (_FIRST_LAYER * spacing) ** 2
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _convex(foot, normal, g, other, least, dim, periodic, parameters):  # type: ignore[no-untyped-def]
     """Whether the feet of two ghosts lie on a convex part of a solid: each is behind the plane of the other."""
     behind_one = 0.0

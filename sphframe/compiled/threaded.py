@@ -23,5 +23,6 @@ def threaded(loop: Callable[..., Any], *, least: int = 0) -> Callable[..., Any]:
     return call
 
 
-threaded_if_long = functools.partial(threaded, least=20_000)
-"""for loops with little work per row: to start threads takes 10 to 20 us, as long as some 5,000 rows"""
+LONG = 20_000
+"""rows from which loops with little work per row use threads, whose start takes 10 to 20 us, as long as 5,000 rows"""
+threaded_if_long = functools.partial(threaded, least=LONG)

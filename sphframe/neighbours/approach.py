@@ -8,17 +8,18 @@ import math
 import numba
 import numpy as np
 
-from sphframe.compiled import local_array, threaded
+from sphframe.compiled import local_array, threaded_if_long
 
 
-@threaded
+@threaded_if_long
 def relative_displacement(rows, reference, dim, origin, edge, shape, boxes):  # type: ignore[no-untyped-def]
     """Return a bound, m, on the relative displacement of any two particles that were less than ``edge`` apart.
 
     Displacements are measured from ``reference`` (n, dim). Space is divided into cubes of side ``edge``; the bound is
     the largest diagonal of the box that holds the displacements in a cube and in the cubes around it.
     ``shape`` (3,) is the number of cubes from ``origin`` (dim,) on, with one more on all sides. ``boxes`` (parts,
-    cubes, 6) is scratch: the smallest displacements of the particles of each part, and the smallest of their negatives.
+    cubes or more, 6) is scratch: the smallest displacements of the particles of each part, and the smallest of their
+    negatives.
     The result does not depend on the number of parts.
     """
     n = reference.shape[0]

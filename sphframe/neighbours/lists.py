@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sphframe.arrays import Array, IntArray
-from sphframe.compiled import LANES, threaded
+from sphframe.compiled import LANES, threaded, threaded_if_long
 from sphframe.neighbours.approach import relative_displacement
 from sphframe.neighbours.cells import Grid, cell_number, grid_around, row_number, sort_by_cell
 from sphframe.neighbours.motion import LargestMotion, largest_motion, largest_wall_displacement
@@ -228,11 +228,10 @@ class NeighbourLists:
         edge = self.radius + self.skin  # particles that were further apart cannot have come within the support
         shape = np.ones(3, np.int64)
         shape[: self.dim] = np.floor((self._upper - self._lower) / edge) + 3
-        cubes = int(shape.prod())
-        if self._boxes.shape[1] < cubes:
-            self._boxes = np.empty((_PARTS, cubes, 6))
-        boxes = self._boxes[:, :cubes]
-        return float(relative_displacement(rows, self._fluid_reference, self.dim, self._lower, edge, shape, boxes))
+        if self._boxes.shape[1] < shape.prod():
+            self._boxes = np.empty((_PARTS, shape.prod(), 6))
+        reference, boxes = self._fluid_reference, self._boxes
+        return float(relative_displacement(rows, reference, self.dim, self._lower, edge, shape, boxes))
 
     def state(self) -> dict[str, Array]:
         """Return copies of the positions from which the lists were built; they determine the lists."""
@@ -416,7 +415,7 @@ def _may_be_near(x, y, z, dim, radius, grid, starts):  # type: ignore[no-untyped
     return False
 
 
-@threaded
+@threaded_if_long
 def _mark_near(  # type: ignore[no-untyped-def]
     points, n, dim, radius, grid, starts, shifts, lists, counts, ghost_counts, near
 ):

@@ -32,7 +32,7 @@ IMAGES = False
 PER_WHOLE = 1.0 / WHOLE
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def add_load(load, row, centre, fx, fy, fz):  # type: ignore[no-untyped-def]
     """Add a force on the particle ``row`` and its moment about ``centre`` to ``load``, (3,) in 2-D, (6,) in 3-D."""
     load[0] += fx

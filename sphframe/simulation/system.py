@@ -15,6 +15,7 @@ from sphframe.boundary.corners import Shares
 from sphframe.boundary.filling import Filling, ImageFilling
 from sphframe.boundary.wall_states import WallStates
 from sphframe.compiled import specialise
+from sphframe.compiled.threaded import LONG
 from sphframe.neighbours import LargestMotion, NeighbourLists, put_in_order
 from sphframe.particles import Columns
 from sphframe.physics import LoopParameters, update_pressure
@@ -64,10 +65,9 @@ class FluidSystem(PackedSystem):
         driving: Driving,
         channel: OpenChannel | None = None,
     ) -> None:
-        dim = boundary.dim
+        dim, several = boundary.dim, len(rows) >= LONG
         self.channel = channel
-        self.boundary = boundary
-        self.contacts = contacts
+        self.boundary, self.contacts = boundary, contacts
         self._filling, self.loops, self.wall_states = filling, loops, wall_states
         self.parameters = parameters
         self.columns = Columns.of(dim)
@@ -76,8 +76,8 @@ class FluidSystem(PackedSystem):
         self.loads = np.zeros((walls, self.bodies.size))
         self._partial_loads = np.zeros((64, walls, self.bodies.size))
         self._driving = driving
-        self._pressure = specialise(update_pressure, parts)
-        self._put_back = specialise(put_back, {**parts, "MARKS": boundary.solid_contacts.needed})
+        self._pressure = specialise(update_pressure, parts, parallel=several)
+        self._put_back = specialise(put_back, {**parts, "MARKS": boundary.solid_contacts.needed}, parallel=several)
         count = lists.fluid_count
         self.rows, self.lists = rows, lists
         self.ids = np.arange(count)
