@@ -38,9 +38,7 @@ def add_load(load, row, centre, fx, fy, fz):  # type: ignore[no-untyped-def]
     load[0] += fx
     load[1] += fy
     if centre.shape[0] == 3:
-        rx = row[0] - centre[0]
-        ry = row[1] - centre[1]
-        rz = row[2] - centre[2]
+        rx, ry, rz = row[0] - centre[0], row[1] - centre[1], row[2] - centre[2]
         load[2] += fz
         load[3] += ry * fz - rz * fy
         load[4] += rz * fx - rx * fz
@@ -64,7 +62,9 @@ def wall_reaction(  # type: ignore[no-untyped-def]
     chunks = partial.shape[0]
     source = images.rows if IMAGES else rows
     for chunk in numba.prange(chunks):
-        partial[chunk] = 0.0
+        for member in range(loads.shape[0]):  # arrays set as a whole would be loops for threads, compiled apart
+            for k in range(loads.shape[1]):
+                partial[chunk, member, k] = 0.0
         for i in range(chunk * fluid_count // chunks, (chunk + 1) * fluid_count // chunks):
             c = i // LANES
             fluid = fluid_counts[c]
@@ -99,9 +99,7 @@ def wall_reaction(  # type: ignore[no-untyped-def]
                             weight = parameters.gradient_scale * GRADIENT(r2 * per_h2)
                             weight *= rows[i, COLUMNS.volume] * source[row, COLUMNS.volume]
                             stress = weight * pair_stress(pressures, parameters.viscosity, approach, r2)
-                            fx = stress * dx
-                            fy = stress * dy
-                            fz = stress * dz if DIM == 3 else 0.0
+                            fx, fy, fz = stress * dx, stress * dy, stress * dz if DIM == 3 else 0.0
                             if MORRIS:
                                 friction = weight * parameters.friction
                                 fx += friction * (u - rows[i, COLUMNS.u])
@@ -114,12 +112,12 @@ def wall_reaction(  # type: ignore[no-untyped-def]
                         other = shares.wall[g]
                         if other >= 0:
                             along = fx * shares.dual[g, 0] + fy * shares.dual[g, 1]
-                            ox = along * shares.normal[g, 0]
-                            oy = along * shares.normal[g, 1]
-                            fx -= ox
-                            fy -= oy
+                            ox, oy = along * shares.normal[g, 0], along * shares.normal[g, 1]
+                            fx, fy = fx - ox, fy - oy
                             add_load(partial[chunk, other], rows[i], centres[other], ox, oy, 0.0)
                         add_load(partial[chunk, ghost_walls[g]], rows[i], centres[ghost_walls[g]], fx, fy, fz)
-    loads[:] = 0.0
-    for chunk in range(chunks):
-        loads += partial[chunk]
+    for member in range(loads.shape[0]):
+        for k in range(loads.shape[1]):
+            loads[member, k] = 0.0
+            for chunk in range(chunks):
+                loads[member, k] += partial[chunk, member, k]
