@@ -246,3 +246,50 @@ def test_velocities_have_weights_of_their_own_and_know_the_normal():
     assert below.sum() == 20
     np.testing.assert_allclose(ghosts.velocity[below], [[0.005, -0.02]] * 20, atol=1e-9)
     assert (ghosts.pressure[below] > 1.2 * 5.0).all()
+
+
+@dataclass(frozen=True)
+class Limited(WallTreatment):
+    """The pressure of a wall particle follows a mean of the fluid's in which outliers hardly count, within h/c0."""
+
+    traits = WallTraits()
+    scale: float = 1000.0
+
+    def parts(self, context):
+        scale, equation_of_state = self.scale, context.pressure
+
+        def rate(near, wall, constants):
+            rho0, c0 = constants.reference_density, constants.sound_speed
+            own, total, weights = equation_of_state(wall.state, rho0, c0), 0.0, 0.0
+            for j in range(near.distances.shape[0]):
+                weight = near.volumes[j] / (1.0 + ((near.pressures[j] - own) / scale) ** 2)
+                total += weight * near.densities[j]
+                weights += weight
+            return (total / weights - wall.state) * c0 / constants.smoothing_length
+
+        def assign(fluid, wall, constants, velocity, viscous_velocity):
+            velocity[:] = wall.velocity
+            return equation_of_state(wall.state, constants.reference_density, constants.sound_speed), 1.0
+
+        return WallParts(rate=rate, assign=assign)
+
+
+def test_weights_can_depend_on_the_values_of_single_particles():
+    """One particle above the bed has a hundred times the pressure of all others: a mean of fixed weights feels it."""
+
+    def pressure(x):
+        return np.where(np.linalg.norm(x - [0.185, 0.005], axis=1) < 1e-3, 1e5, 1e3)
+
+    simulation = _box(Limited(), gravity=0.0)
+    _set(simulation, pressure)
+    system, interval = simulation.system, 0.3 * simulation.smoothing_length / simulation.sound_speed
+    for _ in range(40):
+        system.wall_states.evaluate(system.rows, system.lists, system.parameters)
+        system.wall_states.update_density(interval)
+    system.fill_ghosts()
+    ghosts, fluid = simulation.ghost_fields(), simulation.fields()
+    below = np.flatnonzero(np.linalg.norm(ghosts.position - [0.18, -0.005], axis=1) < 0.02)
+    distances = np.linalg.norm(fluid.position - ghosts.position[below, None], axis=2)
+    means = [fluid.pressure[around].mean() for around in distances < simulation.support]
+    assert np.mean(means) > 2.5e3
+    np.testing.assert_allclose(ghosts.pressure[below], 1e3, rtol=0.01)
