@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from sphframe.compiled import threaded
+from sphframe.neighbours import NeighbourLists
+from sphframe.neighbours.approach import relative_displacement
 from sphframe.neighbours.cells import grid_around, put_in_order, sort_by_cell
 from sphframe.neighbours.motion import largest_motion
 from sphframe.particles import Columns
@@ -85,3 +87,32 @@ def test_the_first_of_many_rows_that_are_wrong_are_found(rows):
     rows[[7_000, 10_001, 17_000], columns.density] = 500.0
     found = _check_fluid(rows, len(rows), columns, np.zeros(2), np.ones(2), 900.0, 1100.0)
     assert found == (9_000, 8_000, 7_000, 3)
+
+
+def test_the_bound_on_the_displacement_of_many_rows_does_not_depend_on_threads(rows):
+    reference, shape = rows[:, :2] + 0.01 * rows[::-1, 2:4], np.array([12, 12, 1])
+    several = numba.get_num_threads()
+    bounds = []
+    for threads in (1, several):
+        numba.set_num_threads(threads)
+        boxes = np.empty((7, 150, 6))  # more than the 144 cubes
+        bounds.append(relative_displacement(rows, reference, 2, np.zeros(2), 0.11, shape, boxes))
+    assert bounds[0] == bounds[1]
+    assert 0.005 < bounds[0] < 0.015
+
+
+def test_the_same_of_many_ghosts_are_near_the_fluid_on_any_number_of_threads(rows):
+    several = numba.get_num_threads()
+    packed = Columns.of(2).zeros(len(rows) + 50)
+    packed[:50, :2], packed[50:, :2] = rows[:50, :2], rows[:, :2]
+    near = []
+    for threads in (1, several):
+        numba.set_num_threads(threads)
+        lists = NeighbourLists(2, 50, len(rows), support=0.03, skin=0.005)
+        ordered = np.vstack([packed[:50][lists.sort(packed)], packed[50:]])
+        lists.build(ordered, packed[50:, :2].copy())
+        near.append(lists.near)
+    np.testing.assert_array_equal(*near)
+    distance = np.linalg.norm(packed[50:, None, :2] - packed[:50, :2], axis=2).min(axis=1)
+    assert np.isin(np.flatnonzero(distance < 0.03), near[0]).all()
+    assert len(near[0]) < 0.8 * len(rows)

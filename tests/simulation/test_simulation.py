@@ -141,6 +141,21 @@ def test_a_particle_behind_a_wall_is_put_back_on_it():
     assert simulation.system.put_back() == 0
 
 
+def test_many_particles_are_put_back_by_several_threads_with_the_same_bits(monkeypatch):
+    """From ``LONG`` rows on, pressures and the particles behind walls are computed by several threads."""
+    found = []
+    for least in (10**9, 0):
+        monkeypatch.setattr("sphframe.simulation.system.LONG", least)
+        simulation = Simulation(tank())
+        rows = simulation.system.rows
+        fluid = rows[: simulation.fluid_count]
+        fluid[fluid[:, 0] < 0.03, 0] = -0.004
+        simulation.system.update_pressure()
+        assert simulation.system.put_back() > 5
+        found.append(rows.copy())
+    np.testing.assert_array_equal(*found)
+
+
 def test_wall_force_of_still_water():
     simulation = Simulation(tank(particle_spacing=0.01), threads=1)
     walls = simulation.wall_forces()
