@@ -37,13 +37,17 @@ COARSE: dict[str, tuple[dict[str, Any], dict[str, float]]] = {
         {"channel_length": 0.6, "until": 1.2},
         {"drag": 0.05, "lift": 0.03, "pressure_difference": 0.5},
     ),
+    "standing-wave": (
+        {"particle_spacing": 0.05, "kinematic_viscosity": 0.00626, "wall_treatment": "mirror-images"},
+        {"frequency": 0.025, "damping": 0.03},
+    ),
     "moving-square": ({"particle_spacing": 0.125, "until": 1.2}, {"start": 0.12, "drag": 0.4}),
     "taylor-green": ({"until": 0.5}, {"last_kinetic_energy": 0.03, "velocity": 0.05, "largest_hole": 0.2}),
 }
 """parameters of short runs, and limits of their errors"""
 
 
-LONG = {"cylinder-in-channel", "moving-square"}
+LONG = {"cylinder-in-channel", "moving-square", "standing-wave"}
 """runs that are compiled with options of their own"""
 
 

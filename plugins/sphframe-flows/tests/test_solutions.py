@@ -2,6 +2,7 @@
 
 import math
 
+import mpmath
 import numpy as np
 import pytest
 import xarray as xr
@@ -42,6 +43,27 @@ def test_viscous_waves(depth: float, reynolds: float, frequency: float | None, d
     small = viscous_wave(k, 1.0, 1.0, 1e-7)
     assert small.imag == pytest.approx(math.sqrt(k * math.tanh(k)), rel=1e-5)
     assert -small.real == pytest.approx(2e-7 * k * k, rel=0.01)
+
+
+def test_a_wave_from_a_potential_flow_is_damped_as_the_normal_mode() -> None:
+    """The initial-value problem of the linearised equations, by the Laplace transform in place of the normal mode.
+
+    The amplitude v of the surface's velocity starts with 1, that of a potential flow below a level surface::
+
+        v(s) = s / [(s + 2 nu k^2)^2 + g k tanh kh - 4 nu^2 k^3 m tanh(kh) / tanh(mh)],    m^2 = k^2 + s / nu
+    """
+    k, nu = math.pi, 1.0 / 500.0
+
+    def transform(s: mpmath.mpc) -> mpmath.mpc:
+        m = mpmath.sqrt(k * k + s / nu)
+        coupling = 4.0 * nu**2 * k**3 * m * math.tanh(k) / mpmath.tanh(m)
+        return s / ((s + 2.0 * nu * k * k) ** 2 + k * math.tanh(k) - coupling)
+
+    t = np.linspace(0.0, 17.0, 21)  # five periods
+    values = [1.0, *(float(mpmath.invertlaplace(transform, time, method="dehoog", degree=30)) for time in t[1:])]
+    rate = viscous_wave(k, 1.0, 1.0, nu)
+    found = fitted_oscillation(t, np.array(values), 1.77, 0.04)
+    assert found == pytest.approx((rate.imag, -rate.real), rel=2e-3)
 
 
 def test_fit_of_an_oscillation() -> None:
