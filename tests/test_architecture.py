@@ -14,7 +14,8 @@ import sphframe
 
 ROOT = Path(__file__).parent.parent
 CORE = sorted((ROOT / "sphframe").rglob("*.py"))
-PUBLIC = ("sphframe", "sphframe.analysis", "sphframe.cases", "sphframe.geometry", "sphframe.studies")
+ROOMS = ("analysis", "cases", "devices", "geometry", "studies")
+PUBLIC = ("sphframe", *(f"sphframe.{room}" for room in ROOMS))
 PLUGINS = [path for path in sorted(ROOT.glob("plugins/*/sphframe_*/**/*.py")) if "tests" not in path.parts]
 
 

@@ -55,6 +55,7 @@ def test_notebooks_run(path: Path) -> None:
         "sphframe",
         "sphframe.analysis",
         "sphframe.cases",
+        "sphframe.devices",
         "sphframe.geometry",
         "sphframe.interfaces",
         "sphframe.studies",

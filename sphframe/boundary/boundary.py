@@ -165,14 +165,15 @@ class Boundary:
         driving_force: Array,
         density: float,
         gradient: Array | None = None,
-    ) -> None:
+    ) -> bool:
         """Put ghosts (their ``rows``) and mirror points where ``motions`` carries them; set the driving forces.
 
         ``driving_force`` (dim,) is rho0 f at the origin, N/m^3, and ``gradient`` (dim, dim) that of f, 1/s^2, None for
         a uniform force; ``density`` is rho0. Ghosts at rest are left as they are if it is the same array as before.
+        Returns whether anything has changed.
         """
         if not len(motions) and self._force is driving_force:
-            return  # nothing has changed
+            return False
         self._force = driving_force
         if len(motions):
             position = np.array([motion.position for motion in motions])
@@ -197,6 +198,7 @@ class Boundary:
         if self.periods:  # no pressure grows along a direction that repeats itself
             self.driving[:, self.periods.repeats] = 0.0
             rows[:, : self.dim] = self.periods.wrapped(self.position)
+        return True
 
     def references(self, motions: Sequence[Motion]) -> Array:
         """Return the points (walls, dim) to which moments refer: the centre of the wall's body, or the origin, m."""

@@ -1,6 +1,6 @@
 """Boundary: fills the ghosts from the fluid, or makes its images, by compiled loops, which need scratch memory."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, Literal
 
 import numpy as np
@@ -39,6 +39,8 @@ class Filling:
         another method for the velocities.
     tension
         see :mod:`sphframe.boundary.ghosts`; ``lowest_pressure``, Pa, of bounded tension.
+    compile_loop
+        makes the loops, as :func:`~sphframe.compiled.specialise` does; ``make_scratch`` their memory.
     """
 
     def __init__(
@@ -51,6 +53,8 @@ class Filling:
         velocity_interpolator: BoundaryInterpolator | None = None,
         tension: Tension = "bounded",
         lowest_pressure: float = 0.0,
+        compile_loop: Callable[..., Callable[..., None]] = specialise,
+        make_scratch: Callable[[int, int], Scratch] = Scratch.of,
     ) -> None:
         self._dim: int = parts["DIM"]
         bound = {
@@ -73,14 +77,15 @@ class Filling:
             bound["SEPARATE"] = True
             functions = weights_functions(velocity_interpolator, kernel, self._dim)
             bound["VELOCITY_WEIGHTS"], bound["VELOCITY_FALLBACK"] = functions
-        self._fill = specialise(fill_ghosts, bound)
-        self._make_conjugate = specialise(make_conjugate, parts) if walls.conjugate else None
-        self._scratch = Scratch.of(8, self._dim)
+        self._fill = compile_loop(fill_ghosts, bound)
+        self._make_conjugate = compile_loop(make_conjugate, parts) if walls.conjugate else None
+        self._make_scratch = make_scratch
+        self._scratch = make_scratch(8, self._dim)
 
     def __call__(self, rows: Array, lists: NeighbourLists, boundary: Boundary, parameters: LoopParameters) -> None:
         """Fill the ghosts of ``boundary`` near the fluid in ``rows`` (n + g, width), and set their statuses."""
         if lists.points.shape[1] > self._scratch.members.shape[1]:
-            self._scratch = Scratch.of(lists.points.shape[1], self._dim)
+            self._scratch = self._make_scratch(lists.points.shape[1], self._dim)
         around = lists.points, lists.point_counts
         of_boundary = boundary.points, boundary.lifts, boundary.arrays, parameters, self._scratch, boundary.statuses
         self._fill(rows, lists.fluid_count, lists.near, *around, *of_boundary)

@@ -30,6 +30,11 @@ class WallStates:
         self._loop = None if rate is None else specialise(wall_rates, {**parts, "RATE": rate})
         self._scalars, self._vectors = np.empty((CHUNKS, 8, 5)), np.empty((CHUNKS, 2, 8, boundary.dim))
 
+    @property
+    def needed(self) -> bool:
+        """Whether the treatment advances them."""
+        return self._loop is not None
+
     def evaluate(self, rows: Array, lists: NeighbourLists, parameters: LoopParameters) -> None:
         """Compute the rates from the fluid in ``rows``."""
         if self._loop is not None:

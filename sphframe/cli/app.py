@@ -14,6 +14,7 @@ from sphframe.cli.parameters import (
     Assignments,
     CheckpointEvery,
     CheckpointInterval,
+    Device,
     DrawnField,
     OutputFile,
     Preset,
@@ -83,6 +84,7 @@ def _run(
     assignments: Assignments = None,
     until: Annotated[str | None, typer.Option(metavar="SECONDS", help="simulated time at which to stop")] = None,
     threads: Threads = None,
+    device: Device = "cpu",
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", metavar="FILE", help="by default CASE.nc in this folder, or CASE-METHOD.nc"),
@@ -101,6 +103,7 @@ def _run(
         preset=preset,
         overrides=overrides,
         threads=threads,
+        device=device,
         output=output,
         overwrite=overwrite,
         checkpoint_every=checkpoint_every,
@@ -112,6 +115,7 @@ def _run(
 def _resume(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="output file (.nc) of a run that is not complete")],
     threads: Threads = None,
+    device: Device = "cpu",
     trust: Annotated[bool, typer.Option("--trust", help="import code that the file names as module:attribute")] = False,
     checkpoint_every: CheckpointEvery = 60.0,
     checkpoint_interval: CheckpointInterval = None,
@@ -120,7 +124,12 @@ def _resume(
     from sphframe.cli.resume import resume_command
 
     resume_command(
-        file, threads=threads, trusted=trust, checkpoint_every=checkpoint_every, checkpoint_interval=checkpoint_interval
+        file,
+        threads=threads,
+        device=device,
+        trusted=trust,
+        checkpoint_every=checkpoint_every,
+        checkpoint_interval=checkpoint_interval,
     )
 
 

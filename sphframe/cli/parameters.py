@@ -42,6 +42,9 @@ Preset = Annotated[str | None, typer.Option(metavar="NAME", help="one of the cas
 Scheduler = Annotated[
     str | None, typer.Option(metavar="ADDRESS", help="run on an existing dask cluster, such as tls://127.0.0.1:8786")
 ]
+Device = Annotated[
+    str, typer.Option(metavar="NAME", help="where the steps are computed: cpu, or an installed one such as cuda")
+]
 Threads = Annotated[int | None, typer.Option(parser=_whole_number, metavar="N", help="threads; by default all cores")]
 Workers = Annotated[
     int | None,

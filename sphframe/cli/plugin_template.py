@@ -11,7 +11,7 @@ from sphframe.registry.kinds import LABELS
 LICENCES = ("BSD-3-Clause", "MIT", "none")
 PARTS = ("seen", "assign", "force", "rate", "surface")
 """the functions of a wall treatment with which it can start"""
-KINDS = {label.replace(" ", "-"): kind for kind, label in LABELS.items() if kind not in ("studies", "hooks")}
+KINDS = {label.replace(" ", "-"): kind for kind, label in LABELS.items() if kind not in ("studies", "hooks", "devices")}
 """the kinds of components that can be started, with their kinds in the registry"""
 
 _RUNS = {

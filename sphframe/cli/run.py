@@ -28,6 +28,7 @@ def run_command(
     preset: str | None,
     overrides: Mapping[str, Any],
     threads: int | None,
+    device: str,
     output: Path | None,
     overwrite: bool,
     checkpoint_every: float,
@@ -59,9 +60,10 @@ def run_command(
     log.print(f"{case.title}: {_described(case)}")
     log.print("compiling (seconds the first time, then read from a cache) ...")
     began = time.monotonic()
-    simulation = Simulation(case, threads=threads)
+    simulation = Simulation(case, threads=threads, device=device)
     log.print(
-        f"{simulation.fluid_count:,} fluid and {simulation.ghost_count:,} ghost particles, {simulation.threads}"
+        f"{simulation.fluid_count:,} fluid and {simulation.ghost_count:,} ghost particles,"
+        f"{f' device {device},' * (device != 'cpu')} {simulation.threads}"
         f" thread{'s' * (simulation.threads > 1)}, ready after {time.monotonic() - began:.1f} s"
     )
     run_with_progress(simulation, writer, checkpoints, log)

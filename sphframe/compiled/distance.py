@@ -5,13 +5,19 @@ import numpy as np
 
 
 @numba.njit(inline="always")
+def whole(x):  # type: ignore[no-untyped-def]
+    """Return the largest whole number that is not above ``x``, as a float."""
+    return np.floor(x)
+
+
+@numba.njit(inline="always")
 def nearest(difference, parameters, d):  # type: ignore[no-untyped-def]
     """Return a ``difference`` of coordinates ``d`` to the nearest copy; ``parameters``: :class:`LoopParameters`."""
     if d == 0:
-        return difference - parameters.period_x * np.floor(difference * parameters.per_period_x + 0.5)
+        return difference - parameters.period_x * whole(difference * parameters.per_period_x + 0.5)
     if d == 1:
-        return difference - parameters.period_y * np.floor(difference * parameters.per_period_y + 0.5)
-    return difference - parameters.period_z * np.floor(difference * parameters.per_period_z + 0.5)
+        return difference - parameters.period_y * whole(difference * parameters.per_period_y + 0.5)
+    return difference - parameters.period_z * whole(difference * parameters.per_period_z + 0.5)
 
 
 @numba.njit(inline="always")
@@ -30,7 +36,7 @@ def offset_between(a, i, b, j, dim, periodic, parameters):  # type: ignore[no-un
 
 @numba.njit(inline="always")
 def squared_distance(a, i, b, j, dim, periodic, parameters):  # type: ignore[no-untyped-def]
-    """Return |a_i - b_j|^2 from the first ``dim`` columns of row ``i`` of ``a`` and row ``j`` of ``b``.
+    """Return ``|a_i - b_j|^2`` from the first ``dim`` columns of row ``i`` of ``a`` and row ``j`` of ``b``.
 
     With ``periodic``, a constant, the distance is that of the nearest copies.
     """

@@ -9,19 +9,3 @@ from sphframe.physics.surface_sums import surface_reaction, surface_sums
 from sphframe.physics.wall_force import wall_reaction
 from sphframe.physics.wall_pair import make_seen, make_surface
 from sphframe.physics.wall_sums import wall_sums
-
-__all__ = [
-    "LoopParameters",
-    "fluid_sums",
-    "invert_pressure",
-    "make_seen",
-    "make_surface",
-    "sample_points",
-    "surface_reaction",
-    "surface_sums",
-    "uniform_and_linear",
-    "update_pressure",
-    "wall_reaction",
-    "wall_sums",
-    "with_body_force",
-]

@@ -16,6 +16,7 @@ LABELS = {
     "cases": "case",
     "studies": "study",
     "hooks": "hook",
+    "devices": "device",
 }
 """the kinds of components, each with its name in the singular for messages"""
 INTERFACES = {
@@ -28,6 +29,7 @@ INTERFACES = {
     "body_forces": "sphframe.BodyForce",
     "cases": "sphframe.Case",
     "studies": "sphframe.studies.Study",
+    "devices": "sphframe.devices.FluidSystem",
 }
 """the public name of the class that components of a kind extend; hooks may be any object"""
 KINDS = tuple(LABELS)
@@ -108,5 +110,6 @@ DISTRIBUTIONS = {
         )
     },
     ("studies", "huang2019"): "sphframe-huang2019",
+    ("devices", "cuda"): "sphframe-cuda",
 }
 """the distribution to install for the name of a component of this project that is missing"""

@@ -20,7 +20,7 @@ class Driving:
     def __init__(
         self, parameters: LoopParameters, dim: int, added: BodyForce | None, sources: Sources | None = None
     ) -> None:
-        self._sources, self._columns, self._density = sources, Columns.of(dim), parameters.reference_density
+        self.sources, self._columns, self._density = sources, Columns.of(dim), parameters.reference_density
         self._gravity, self.gradient = uniform_and_linear(parameters, dim)
         self.force: Array = parameters.reference_density * self._gravity
         self._added = added
@@ -34,18 +34,22 @@ class Driving:
         self.force = parameters.reference_density * force
         return with_body_force(parameters, force, self.gradient)
 
-    def move(self, boundary: Boundary, motions: Sequence[Motion], ghosts: Array, time: float) -> None:
-        """Move the walls of ``boundary`` and the rows of their ``ghosts``; set the force that the pressure balances."""
-        boundary.move(motions, ghosts, self.force, self._density, self.gradient)
-        if self._sources is not None:
-            boundary.driving[:] = self._sources.wall_force(boundary.foot, time)
+    def move(self, boundary: Boundary, motions: Sequence[Motion], ghosts: Array, time: float) -> bool:
+        """Move the walls of ``boundary`` and the rows of their ``ghosts``; set the force that the pressure balances.
+
+        Returns whether anything has changed.
+        """
+        moved = boundary.move(motions, ghosts, self.force, self._density, self.gradient)
+        if self.sources is not None:
+            boundary.driving[:] = self.sources.wall_force(boundary.foot, time)
+        return moved
 
     def add_sources(self, rows: Array, rates: Array, time: float, *, continuity: bool) -> None:
         """Add the sources, if there are any, to the density rates or the accelerations ``rates`` of the fluid."""
-        if self._sources is None:
+        if self.sources is None:
             return
         position = rows[: len(rates), self._columns.position]
         if continuity:
-            rates[:, self._columns.density] += self._sources.density_rate(position, time)
+            rates[:, self._columns.density] += self.sources.density_rate(position, time)
         else:
-            rates[:, self._columns.velocity] += self._sources.acceleration(position, time)
+            rates[:, self._columns.velocity] += self.sources.acceleration(position, time)

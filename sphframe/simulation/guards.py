@@ -4,18 +4,14 @@ Every state between two steps is checked. NaN, a time step that has collapsed an
 traits always stop a run; for the rest a case says what is to happen (:class:`sphframe.cases.Guards`).
 """
 
-import math
 from typing import NamedTuple, NoReturn
 
-import numba
 import numpy as np
 
 from sphframe.arrays import Array, BoolArray
-from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.operator import operator_of, row_starts
 from sphframe.boundary.promises import first_contradiction
 from sphframe.cases import Case
-from sphframe.compiled import threaded_if_long
 from sphframe.errors import SimulationError
 from sphframe.interfaces import BoundaryInterpolator, Kernel, Status
 from sphframe.registry import Entry, find
@@ -56,13 +52,13 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array, tim
         when something is wrong that the case does not tolerate; the caller adds time and step.
     """
     guards, columns = case.guards, system.columns
-    rows, n = system.rows, system.fluid_count
+    n = system.fluid_count
     lowest, highest = (factor * case.reference_density for factor in guards.density_band)
-    broken, outside, out_of_range, densities_outside = _check_fluid(rows, n, columns, lower, upper, lowest, highest)
+    broken, outside, out_of_range, densities_outside = system.check_fluid(lower, upper, lowest, highest)
 
     def stop(index: int, what: str, cause: str, remedy: str = "") -> NoReturn:
         causes = f"{_likely(system, case, time_step, cause)}{remedy}"
-        row = rows[index]
+        row = system.host_rows[index]
         velocity = ", ".join(f"{u:.4g}" for u in row[columns.velocity])
         raise SimulationError(
             f"particle {system.ids[index]} {what} (velocity ({velocity}) m/s, density {row[columns.density]:.6g}"
@@ -73,8 +69,8 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array, tim
     if broken < n:
         stop(broken, "has a state that is not finite", "a component or a hook that wrote NaN")
     if densities_outside:  # a band may be wide and its guard only count, but no volume belongs to such a density
-        least = int(np.argmin(rows[:n, columns.density]))
-        if rows[least, columns.density] <= 0.0:
+        least = int(np.argmin(system.host_rows[:n, columns.density]))
+        if system.host_rows[least, columns.density] <= 0.0:
             stop(least, "has a density that is not positive", "fluid that is torn apart within a step")
     _check_ghosts(system, case, time_step)
     if outside < n and guards.domain == "stop":
@@ -92,12 +88,13 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array, tim
             '; to go on and count such particles, set guards.density = "count", or widen guards.density_band',
         )
     if guards.fallbacks == "stop":
-        _check_fallbacks(system.boundary, case)
+        _check_fallbacks(system, case)
     if system.boundary.bodies:
         check_bodies(system, case, lower, upper, time_step)
-    position = rows[:n, columns.position]
-    gone = np.any((position < lower) | (position > upper), axis=1) if outside < n else None
-    return Tolerated(gone, densities_outside)
+    if outside == n:
+        return Tolerated(None, densities_outside)
+    position = system.host_rows[:n, columns.position]
+    return Tolerated(np.any((position < lower) | (position > upper), axis=1), densities_outside)
 
 
 def _likely(system: FluidSystem, case: Case, time_step: float, cause: str) -> str:
@@ -107,7 +104,7 @@ def _likely(system: FluidSystem, case: Case, time_step: float, cause: str) -> st
     limit = case.integrator.create("integrators").stability_limit
     if number > limit:  # high speeds are then its effect
         return f"a time step above the stability limit (set a smaller courant_number or time_step), or {cause}"
-    velocity = system.rows[: system.fluid_count, system.columns.velocity]
+    velocity = system.host_rows[: system.fluid_count, system.columns.velocity]
     fastest = float(np.max(np.abs(velocity), initial=0.0, where=np.isfinite(velocity)))
     if fastest > SLOW * parameters.sound_speed:
         return f"{cause}, or a sound speed too low for the flow (raise sound_speed)"
@@ -116,7 +113,7 @@ def _likely(system: FluidSystem, case: Case, time_step: float, cause: str) -> st
 
 def _near_wall(system: FluidSystem, index: int) -> bool:
     """Whether a wall acts on a particle."""
-    support, place = system.parameters.support, system.rows[index, system.columns.position]
+    support, place = system.parameters.support, system.host_rows[index, system.columns.position]
     ghosts, _ = system.boundary.periods.with_copies(system.boundary.position, support)
     return bool(np.any(np.linalg.norm(ghosts - place, axis=1) < support))
 
@@ -153,14 +150,12 @@ def check_bodies(system: FluidSystem, case: Case, lower: Array, upper: Array, ti
 
 def _check_ghosts(system: FluidSystem, case: Case, time_step: float) -> None:
     boundary = system.boundary
-    g = _first_bad_ghost(
-        system.rows, system.fluid_count, system.columns, system.lists.near, boundary.statuses, len(Status)
-    )
+    g = system.first_bad_ghost()
     if g < boundary.count:
-        row, columns = system.rows[system.fluid_count + g], system.columns
+        row, columns = system.host_rows[system.fluid_count + g], system.columns
         raise SimulationError(
             f"ghost {g} got pressure {row[columns.pressure]:g} Pa, velocity {row[columns.velocity]} m/s and status"
-            f" {boundary.statuses[g]} from {_method(case).label}; likely causes: "
+            f" {system.statuses[g]} from {_method(case).label}; likely causes: "
             + _likely(system, case, time_step, f"weights that are not finite (sphframe verify {_method(case).name})"),
             place=tuple(float(x) for x in boundary.position[g]),
         )
@@ -172,9 +167,9 @@ def _method(case: Case) -> Entry:
     return find("interpolators", case.interpolator.name) if own else find("wall_treatments", case.wall_treatment.name)
 
 
-def _check_fallbacks(boundary: Boundary, case: Case) -> None:
-    wet = boundary.statuses != int(Status.DRY)
-    fallen = wet & (boundary.statuses != int(Status.OK))
+def _check_fallbacks(system: FluidSystem, case: Case) -> None:
+    wet = system.statuses != int(Status.DRY)
+    fallen = wet & (system.statuses != int(Status.OK))
     share = float(fallen.sum()) / max(1, int(wet.sum()))
     if share > case.guards.fallback_limit:
         g = int(np.argmax(fallen))
@@ -183,7 +178,7 @@ def _check_fallbacks(boundary: Boundary, case: Case) -> None:
             f" guards.fallback_limit = {case.guards.fallback_limit:g}; likely causes: the flow has broken up into"
             " spray, or the method needs more neighbours than there are: refine particle_spacing, choose a method of"
             ' lower order, or set guards.fallbacks = "count"',
-            place=tuple(float(x) for x in boundary.position[g]),
+            place=tuple(float(x) for x in system.boundary.position[g]),
         )
 
 
@@ -218,7 +213,7 @@ def check_traits(
     ghosts = near[places]
     points = boundary.periods.wrapped(boundary.points)[ghosts]
     listed = np.arange(system.lists.points.shape[1]) < system.lists.point_counts[places][:, None]
-    of, around = np.nonzero(listed)[0], system.rows[system.lists.points[places][listed]]
+    of, around = np.nonzero(listed)[0], system.host_rows[system.lists.points[places][listed]]
     offset = boundary.periods.nearest(around[:, columns.position] - points[of])
     inside = np.square(offset).sum(axis=1) < system.parameters.support**2
     of, count = of[inside], int(inside.sum())
@@ -242,38 +237,3 @@ def check_traits(
             f" {_method(case).name} makes the same check and shows a small example",
             place=tuple(float(x) for x in boundary.points[ghosts[found.point]]),
         )
-
-
-@threaded_if_long
-def _check_fluid(rows, n, columns, lower, upper, lowest, highest):  # type: ignore[no-untyped-def]
-    """Return the first of ``n`` rows that is not finite, the first one outside the box, and the first one with a
-    density outside ``lowest`` .. ``highest`` and the number of those. A first one that does not exist is n."""
-    broken = outside = out_of_range = n
-    densities_outside = 0
-    for i in numba.prange(n):
-        inside = True
-        density = rows[i, columns.density]
-        total = density
-        for k in range(columns.dim):
-            total += rows[i, columns.u + k] ** 2 + rows[i, k]
-            inside = inside and rows[i, k] >= lower[k] and rows[i, k] <= upper[k]
-        if not math.isfinite(total):
-            broken = min(broken, i)
-        elif not inside:
-            outside = min(outside, i)
-        elif density < lowest or density > highest:
-            out_of_range = min(out_of_range, i)
-            densities_outside += 1
-    return broken, outside, out_of_range, densities_outside
-
-
-@numba.njit(cache=True)
-def _first_bad_ghost(rows, first, columns, ghosts, statuses, status_count):  # type: ignore[no-untyped-def]
-    """Return the first of ``ghosts`` whose state is not finite or whose status is no :class:`Status`; g without one."""
-    for g in ghosts:
-        total = rows[first + g, columns.density] + rows[first + g, columns.pressure]
-        for k in range(columns.density):
-            total += rows[first + g, k]
-        if not math.isfinite(total) or statuses[g] < 0 or statuses[g] >= status_count:
-            return g
-    return statuses.shape[0]

@@ -81,8 +81,12 @@ def drawn(case: Case, scene: Scene, components: Components, parameters: LoopPara
     return Drawn(boundary, position, volume, region, beside_walls)
 
 
-def initial_system(case: Case, scene: Scene, components: Components, parameters: LoopParameters) -> FluidSystem:
+def initial_system(
+    case: Case, scene: Scene, components: Components, parameters: LoopParameters, kind: type[FluidSystem] = FluidSystem
+) -> FluidSystem:
     """Return the system of ``scene`` at time 0, with its neighbour lists built and all rates computed.
+
+    ``kind`` says where it is computed.
 
     Raises
     ------
@@ -125,12 +129,12 @@ def initial_system(case: Case, scene: Scene, components: Components, parameters:
     loops = RateLoops(
         parts, components.compiled_kernel, components.walls, attracts=case.tension != "none",
         images=components.wall_treatment.geometry is WallGeometry.IMAGES,
-        shifting=Shifting.of_case(case, components.wall_treatment, parts),
+        shifting=Shifting.of_case(case, components.wall_treatment, parts), compile_loop=kind.specialise,
     )  # fmt: skip
     states = WallStates(boundary, components.walls.rate, components.parts)
-    filling = initial_filling(case, components)
+    filling = initial_filling(case, components, compile_loop=kind.specialise, make_scratch=kind.make_scratch)
     driving = Driving(parameters, dim, components.body_force, scene.sources)
-    system = FluidSystem(rows, boundary, filling, lists, loops, states, parts, parameters, contacts, driving, channel)
+    system = kind(rows, boundary, filling, lists, loops, states, parts, parameters, contacts, driving, channel)
     system.make_room(components.integrator.memory)
     system.move_walls(0.0)
     system.find_neighbours()

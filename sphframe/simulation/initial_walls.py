@@ -1,5 +1,8 @@
 """Simulation: the wall particles of a case at the start, and how they are filled from the fluid."""
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 from scipy.spatial import cKDTree
 
@@ -62,8 +65,8 @@ def _check_thick(boundary: Boundary) -> None:
         )
 
 
-def initial_filling(case: Case, components: Components) -> Filling | ImageFilling:
-    """Return the loop that fills the wall particles."""
+def initial_filling(case: Case, components: Components, **memory: Callable[..., Any]) -> Filling | ImageFilling:
+    """Return the loop that fills the wall particles; ``memory``: how :class:`Filling` compiles it, and its scratch."""
     if components.wall_treatment.geometry is WallGeometry.IMAGES:
         return ImageFilling(
             components.parts, components.walls, tension=case.tension, lowest_pressure=case.lowest_pressure
@@ -76,6 +79,7 @@ def initial_filling(case: Case, components: Components) -> Filling | ImageFillin
         velocity_interpolator=components.velocity_interpolator,
         tension=case.tension,
         lowest_pressure=case.lowest_pressure,
+        **memory,
     )
 
 

@@ -84,7 +84,7 @@ class Observation:
     def _fluid(self) -> Fields:
         """Views of the fluid's fields, with pressures of the present densities."""
         self.system.refresh_pressure()
-        return self._fields(self.system.rows[: self.fluid_count])
+        return self._fields(self.system.host_rows[: self.fluid_count])
 
     def _fields(self, rows: Array) -> Fields:
         of = self.columns
@@ -98,18 +98,18 @@ class Observation:
 
     def turns(self) -> IntArray:
         """Return by how many periods (n, dim) the particles have left the box, in their original order."""
-        position = self.system.rows[: self.fluid_count, self.columns.position]
+        position = self.system.host_rows[: self.fluid_count, self.columns.position]
         ordered = np.zeros((self.particle_count, self.case.dimension), np.int64)
         ordered[self.system.ids] = self.system.turns + self.boundary.periods.turns(position)
         return ordered
 
     def ghost_fields(self) -> Fields:
         """Return copies of the ghosts' fields as last filled."""
-        return self._fields(self.system.rows[self.fluid_count :].copy())
+        return self._fields(self.system.host_rows[self.fluid_count :].copy())
 
     def masses(self) -> Array:
         """Return the mass of each particle in the original order, kg; NaN for removed particles."""
-        return self.in_original_order(self.system.rows[: self.fluid_count, self.columns.mass])
+        return self.in_original_order(self.system.host_rows[: self.fluid_count, self.columns.mass])
 
     def in_original_order(self, values: AnyArray) -> Array:
         """Return ``values`` (n, ...) of the fluid in the particles' original order; NaN for removed particles."""
@@ -122,9 +122,9 @@ class Observation:
     def sample(self, points: Array) -> tuple[Array, Array]:
         """Return pressure (Pa, 0 where dry) and filling (1 inside the fluid) at ``points`` (k, dim)."""
         self.system.refresh_pressure()
-        lists, counts = self.system.lists.around(points, self.system.rows)
+        lists, counts = self.system.lists.around(points, self.system.host_rows)
         pressures, fillings = np.zeros(len(points)), np.zeros(len(points))
-        self._sample(points, self.system.rows, lists, counts, self.parameters, pressures, fillings)
+        self._sample(points, self.system.host_rows, lists, counts, self.parameters, pressures, fillings)
         return pressures, fillings
 
     def probe_readings(self) -> Readings:
@@ -161,7 +161,7 @@ class Observation:
         origin; the internal energy is p^2 V / (2 rho c0^2), its leading order.
         """
         fields = self._fluid()
-        mass = self.system.rows[: self.fluid_count, self.columns.mass]
+        mass = self.system.host_rows[: self.fluid_count, self.columns.mass]
         compliance = mass / (fields.density**2 * self.sound_speed**2)
         place = fields.position + self.system.turns * self.boundary.periods.length
         return {
@@ -179,7 +179,7 @@ class Observation:
 
     def particles_outside(self) -> int:
         """Return the number of particles behind a wall."""
-        position = self.system.rows[: self.fluid_count, self.columns.position]
+        position = self.system.host_rows[: self.fluid_count, self.columns.position]
         outside = np.zeros(self.fluid_count, dtype=np.bool_)
         for group, body in zip(self.boundary.groups, self.boundary.group_body, strict=True):
             outside |= group.behind(self._in_frame(position, body) if body >= 0 else position)
@@ -187,7 +187,7 @@ class Observation:
 
     def status_counts(self) -> IntArray:
         """Return the number of ghosts by :class:`Status` at the last evaluation."""
-        return np.bincount(self.boundary.statuses, minlength=len(Status))
+        return np.bincount(self.system.statuses, minlength=len(Status))
 
     # walls and bodies
 

@@ -1,6 +1,6 @@
 """Simulation: the compiled sums of continuity and momentum over fluid and walls, as the treatment needs them."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from sphframe.arrays import Array, IntArray
@@ -29,6 +29,7 @@ class RateLoops:
     Where the treatment leaves ghosts as they were assigned, one loop sums over fluid and ghosts. Else a second one
     sums over the ghosts. ``attracts``: whether a pair of fluid and ghost may attract; ``images``: whether images of
     the fluid take the place of ghosts. ``shifting`` adds its control of the tensile instability to the accelerations.
+    ``compile_loop`` makes the loops of the rates, as :func:`~sphframe.compiled.specialise` does.
     """
 
     def __init__(
@@ -40,6 +41,7 @@ class RateLoops:
         attracts: bool,
         images: bool,
         shifting: Shifting | None = None,
+        compile_loop: Callable[..., Callable[..., None]] = specialise,
     ) -> None:
         self.shifting = shifting
         own = walls.seen, walls.force, walls.surface
@@ -65,9 +67,9 @@ class RateLoops:
         self._fluid, self._walls = {}, {}
         for continuity in (True, False):
             bound["CONTINUITY"] = continuity
-            self._fluid[continuity] = specialise(fluid_sums, bound)
+            self._fluid[continuity] = compile_loop(fluid_sums, bound)
             if not as_assigned and not (continuity and walls.force):
-                self._walls[continuity] = specialise(over_walls, bound)
+                self._walls[continuity] = compile_loop(over_walls, bound)
         self._reaction = specialise(reaction, bound)
 
     def __call__(

@@ -55,6 +55,7 @@ def run(
     preset: str | None = None,
     output: str | os.PathLike[str] | None = None,
     threads: int | None = None,
+    device: str = "cpu",
     overwrite: bool = False,
     hooks: Sequence[object] = (),
     progress: bool | None = None,
@@ -74,6 +75,8 @@ def run(
         NetCDF file to write; by default a temporary file that is removed when Python ends.
     threads
         threads of the compiled loops; by default all cores.
+    device
+        where the steps are computed: ``"cpu"``, or an installed device such as ``"cuda"`` of sphframe-cuda.
     overwrite
         whether an existing ``output`` may be replaced.
     hooks
@@ -105,7 +108,7 @@ def run(
     path = _temporary_file() if output is None else Path(output)
     writer = NetCDFWriter(path, overwrite=overwrite)
     checkpoints = CheckpointWriter(writer, every=checkpoint_every, interval=checkpoint_interval)
-    simulation = Simulation(ready, threads=threads)
+    simulation = Simulation(ready, threads=threads, device=device)
     try:
         _run(simulation, writer, checkpoints, hooks, progress)
     except BaseException as error:
@@ -145,7 +148,12 @@ def _run(
 
 
 def prepare_resume(
-    path: str | os.PathLike[str], *, case: Case | None = None, trusted: bool = False, threads: int | None = None
+    path: str | os.PathLike[str],
+    *,
+    case: Case | None = None,
+    trusted: bool = False,
+    threads: int | None = None,
+    device: str = "cpu",
 ) -> tuple[Simulation, NetCDFWriter]:
     """Read a checkpoint and set its run up, without running; parameters and errors are those of :func:`resume`.
 
@@ -170,7 +178,7 @@ def prepare_resume(
             ResumeWarning,
             stacklevel=3,
         )
-    simulation = Simulation(ready, threads=threads)
+    simulation = Simulation(ready, threads=threads, device=device)
     simulation.restore(checkpoint.state)
     return simulation, NetCDFWriter(output, resumed=checkpoint)
 
@@ -181,6 +189,7 @@ def resume(
     case: Case | None = None,
     trusted: bool = False,
     threads: int | None = None,
+    device: str = "cpu",
     hooks: Sequence[object] = (),
     progress: bool | None = None,
     checkpoint_every: float | None = 60.0,
@@ -200,7 +209,7 @@ def resume(
         the case, if it is a class or holds functions of your own; by default it is read from the output.
     trusted
         whether the file may name components as ``module:attribute``, whose code is then imported.
-    threads, hooks, progress, checkpoint_every, checkpoint_interval
+    threads, device, hooks, progress, checkpoint_every, checkpoint_interval
         as for :func:`run`.
 
     Warns
@@ -217,7 +226,7 @@ def resume(
     SimulationError, KeyboardInterrupt
         as for :func:`run`.
     """
-    simulation, writer = prepare_resume(path, case=case, trusted=trusted, threads=threads)
+    simulation, writer = prepare_resume(path, case=case, trusted=trusted, threads=threads, device=device)
     checkpoints = CheckpointWriter(writer, every=checkpoint_every, interval=checkpoint_interval)
     _run(simulation, writer, checkpoints, hooks, progress)
     return Run(simulation.case, writer.path, open_dataset(writer.path))

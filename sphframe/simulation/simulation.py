@@ -12,6 +12,7 @@ from sphframe.cases.placement import placed_scene
 from sphframe.compiled import use_threads
 from sphframe.errors import InputError, SimulationError
 from sphframe.neighbours import LargestMotion
+from sphframe.registry import load
 from sphframe.simulation.components import Components
 from sphframe.simulation.guards import check_state, check_time_step, check_traits
 from sphframe.simulation.initial_state import initial_system, loop_parameters
@@ -32,6 +33,8 @@ class Simulation(Observation):
         what to simulate.
     threads
         threads of the compiled loops; by default all cores. The result has the same bits for any number.
+    device
+        where the steps are computed: ``"cpu"``, or the name of an installed device, such as ``"cuda"``.
 
     Attributes
     ----------
@@ -53,12 +56,12 @@ class Simulation(Observation):
     Raises
     ------
     InputError
-        when the case holds no fluid or no wall, or contradicts itself.
+        when the case holds no fluid or no wall, contradicts itself, or holds what the device cannot compute.
     PluginError
-        when a component cannot be loaded.
+        when a component or the device cannot be loaded.
     """
 
-    def __init__(self, case: Case, *, threads: int | None = None) -> None:
+    def __init__(self, case: Case, *, threads: int | None = None, device: str = "cpu") -> None:
         self.threads = use_threads(threads)
         self.time = self.time_step = 0.0
         self.step = self.samples = self.frames = 0
@@ -68,7 +71,8 @@ class Simulation(Observation):
         check_memory(case, scene)
         with self._adding_time_and_step(), naming_component(case, running=False):
             components = Components.of_case(case)
-            system = initial_system(case, scene, components, loop_parameters(case, scene, components))
+            parameters = loop_parameters(case, scene, components)
+            system = initial_system(case, scene, components, parameters, load("devices", device))
         super().__init__(case, scene, components, system)
         self.initial_energy = sum(self.energies().values())
         self.densities_outside = 0

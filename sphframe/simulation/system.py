@@ -13,6 +13,7 @@ from sphframe.boundary.boundary import Boundary
 from sphframe.boundary.contact import put_back
 from sphframe.boundary.corners import Shares
 from sphframe.boundary.filling import Filling, ImageFilling
+from sphframe.boundary.ghosts import Scratch
 from sphframe.boundary.wall_states import WallStates
 from sphframe.compiled import specialise
 from sphframe.compiled.threaded import LONG
@@ -49,7 +50,12 @@ class FluidSystem(PackedSystem):
         the states of the bodies; ``contacts`` between them and walls. ``channel``: its open ends, or None.
     loads
         (walls, 3 or 6) force and moment of the fluid on each wall.
+
+    A subclass computes elsewhere than on the processor: it holds ``rows``, ``rates`` and ``gradient`` there, and says
+    how loops over them are compiled (``specialise``) and where their scratch memory is (``make_scratch``).
     """
+
+    specialise, make_scratch = staticmethod(specialise), staticmethod(Scratch.of)
 
     def __init__(
         self,
@@ -76,8 +82,8 @@ class FluidSystem(PackedSystem):
         self.loads = np.zeros((walls, self.bodies.size))
         self._partial_loads = np.zeros((64, walls, self.bodies.size))
         self._driving = driving
-        self._pressure = specialise(update_pressure, parts, parallel=several)
-        self._put_back = specialise(put_back, {**parts, "MARKS": boundary.solid_contacts.needed}, parallel=several)
+        self._pressure = self.specialise(update_pressure, parts, parallel=several)
+        self._put_back = self.specialise(put_back, {**parts, "MARKS": boundary.solid_contacts.needed}, parallel=several)
         count = lists.fluid_count
         self.rows, self.lists = rows, lists
         self.ids = np.arange(count)
@@ -195,16 +201,14 @@ class FluidSystem(PackedSystem):
 
     def fill_ghosts(self) -> None:
         """Mirror, interpolate, assign."""
-        self._filling(self.rows, self.lists, self.boundary, self.parameters)
+        self._filling(self.rows, *self.around, self.parameters)
 
     def _sum_density_rates(self, time: float) -> None:
         self._sum(time, continuity=True)
         self.wall_states.evaluate(self.rows, self.lists, self.parameters)
 
     def _sum(self, time: float, *, continuity: bool) -> None:
-        self.loops(
-            self.rows, self.lists, self.boundary, self.parameters, self.gradient, self.rates, continuity=continuity
-        )
+        self.loops(self.rows, *self.around, self.parameters, self.gradient, self.rates, continuity=continuity)
         self._driving.add_sources(self.rows, self.rates, time, continuity=continuity)
         if self.channel is not None:
             self.channel.hold(self.rates, self.columns)
@@ -216,11 +220,9 @@ class FluidSystem(PackedSystem):
 
     def react(self, walls: IntArray, shares: Shares, centres: Array, partial: Array, loads: Array) -> None:
         """Write the loads on the ``walls`` (g,) of the ghosts, see :class:`RateLoops`."""
-        self.loops.react(self.rows, self.lists, self.boundary, self.parameters, walls, shares, centres, partial, loads)
-
-    def references(self) -> Array:
-        """Return the points (walls, dim) to which moments refer: the centre of the wall's body, or the origin, m."""
-        return self.boundary.references(self.bodies.motions)
+        self.loops.react(
+            self.host_rows, self.lists, self.boundary, self.parameters, walls, shares, centres, partial, loads
+        )
 
     def _body_loads(self) -> Array:
         """Force and moment (bodies, 3 or 6) of the fluid on each body, as last computed."""

@@ -6,6 +6,15 @@ from sphframe.compiled import threaded_if_long
 
 
 @threaded_if_long
+def hold_state(rows, start, total):  # type: ignore[no-untyped-def]
+    """Copy the state in ``rows`` to ``start`` (n, 2 dim + 1), and set ``total`` (n, 2 dim + 1) to zero."""
+    for i in numba.prange(start.shape[0]):
+        for k in range(start.shape[1]):
+            start[i, k] = rows[i, k]
+            total[i, k] = 0.0
+
+
+@threaded_if_long
 def advance_state(rows, start, rates, interval):  # type: ignore[no-untyped-def]
     """Set y = y0 + dt f in ``rows`` for y0 = ``start`` and f = ``rates`` (n, 2 dim + 1)."""
     for i in numba.prange(start.shape[0]):

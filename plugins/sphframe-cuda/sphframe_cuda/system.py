@@ -1,0 +1,254 @@
+"""The fluid on a CUDA device: its rows, rates and ghosts are held and computed there."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from types import SimpleNamespace
+from typing import Any, final
+
+import numpy as np
+
+from sphframe import InputError, Status
+from sphframe.devices import (
+    FluidSystem,
+    ImageFilling,
+    LargestMotion,
+    Scratch,
+    add_columns,
+    advance_state,
+    check_fluid,
+    first_bad_ghost,
+    hold_state,
+    largest_motion,
+)
+from sphframe_cuda.arrays import fetched, put, put_into, room
+from sphframe_cuda.loops import SIMULATED, Loop
+from sphframe_cuda.templates import copy_lists, give_rows, list_each, put_ghosts, take_rows
+
+_GHOSTS_AT_ONCE = 4 if SIMULATED else 32_768
+"""ghosts that are filled at the same time, each with scratch memory of its own"""
+_WALLS = ("points", "lifts", "foot", "normal", "reflection", "velocity")
+"""arrays of the ghosts that change where walls move; ``driving`` is in the arrays of the loops"""
+
+
+def _scratch(capacity: int, dim: int) -> Scratch:
+    """Return memory of the device for neighbourhoods; the threads use places beside each other."""
+    own, count = partial(room, order="F"), _GHOSTS_AT_ONCE
+    return Scratch(
+        own((count, capacity, dim)), own((count, 4, capacity)), own((count, capacity), np.uint32), own((count, dim))
+    )
+
+
+@final
+class CudaSystem(FluidSystem):
+    """The fluid on a CUDA device, advanced by the kernels that Numba makes of sphframe's loop templates.
+
+    The processor finds the neighbours, and computes bodies, loads and output; rows travel there when one of these needs
+    them. A list of the processor belongs to eight particles; the device makes one for each particle from it.
+
+    Raises
+    ------
+    InputError
+        at the start, for what the device does not compute: thin walls, images of the fluid, wall particles with a state
+        of their own, open ends, shifting and sources.
+    """
+
+    specialise, make_scratch = Loop, staticmethod(_scratch)
+    hold_state, advance_state, add_columns = Loop(hold_state), Loop(advance_state), Loop(add_columns)
+
+    def __init__(self, *arguments: Any) -> None:
+        super().__init__(*arguments)
+        self._refuse()
+        boundary = self.boundary
+        parts = {"DIM": boundary.dim, "PERIODIC": bool(boundary.periods), "CLUSTER": self.lists.cluster}
+        self._list_each, self._copy, self._put_ghosts = Loop(list_each, parts), Loop(copy_lists), Loop(put_ghosts)
+        self._take_rows, self._give_rows = Loop(take_rows), Loop(give_rows)
+        self._check_fluid, self._first_bad_ghost = Loop(check_fluid), Loop(first_bad_ghost)
+        self._largest_motion = Loop(largest_motion)
+        self._corners: dict[bytes, Any] = {}
+        self._near: Any = None
+        self._ghost_rows = self.rows[self.fluid_count :].copy()
+        self._walls = SimpleNamespace(
+            **{name: put(getattr(boundary, name)) for name in _WALLS},
+            statuses=put(boundary.statuses),
+            passable=put(boundary.passable),
+            images=type(boundary.images)(*map(put, boundary.images)),
+        )
+        shared = {name: getattr(self._walls, name) for name in ("normal", "reflection", "velocity")}
+        self._walls.arrays = boundary.arrays._replace(
+            **shared, **{name: put(array) for name, array in boundary.arrays._asdict().items() if name not in shared}
+        )
+        self._place()
+
+    def _refuse(self) -> None:
+        for present, what in (
+            (self.boundary.sides is not None, "thin walls"),
+            (isinstance(self._filling, ImageFilling), "treatments with images of the fluid"),
+            (self.wall_states.needed, "treatments whose wall particles have a state of their own"),
+            (self.channel is not None, "open ends"),
+            (self.loops.shifting is not None, "shifting"),
+            (self._driving.sources is not None, "sources"),
+        ):
+            if present:
+                raise InputError(f'device "cuda" does not compute {what}: run the case with device "cpu"')
+
+    def make_room(self, memory: int) -> None:
+        """Refuse integrators that store totals from step to step.
+
+        Raises
+        ------
+        InputError
+            for such an integrator.
+        """
+        if memory:
+            raise InputError('device "cuda" does not compute integrators of several steps: run with device "cpu"')
+        super().make_room(0)
+
+    # where the arrays are
+
+    def _place(self) -> None:
+        """Bring rows, rates and gradient to the device."""
+        self.rows, self.rates, self.gradient = put(self.rows), put(self.rates), put(self.gradient)
+        self._start, self._total = room(self.rates.shape), room(self.rates.shape)
+        self._host_rows, self._fetched_after = np.zeros(0), -1
+
+    @contextmanager
+    def _on_host(self, *, changed: bool) -> Iterator[None]:
+        """Hold rows, rates and gradient on the processor meanwhile, where they may be ``changed``."""
+        held = self.rows, self.rates, self.gradient, self._start, self._total
+        self.rows, self.rates, self.gradient = map(fetched, held[:3])
+        self._start = self._total = np.zeros_like(self.rates)
+        yield
+        if changed:
+            self._place()
+        else:
+            self.rows, self.rates, self.gradient, self._start, self._total = held
+
+    @property
+    def host_rows(self) -> Any:
+        """A copy of the rows on the processor, fetched when they may have changed; with it the ghosts' statuses."""
+        if self._fetched_after != Loop.launches:
+            self._host_rows, self._fetched_after = fetched(self.rows), Loop.launches
+            self.boundary.statuses[:] = fetched(self._walls.statuses)
+            self.boundary.arrays.viscous_velocity[:] = fetched(self._walls.arrays.viscous_velocity)
+        return self._host_rows
+
+    @property
+    def statuses(self) -> Any:
+        """The :class:`Status` (g,) of each ghost at the last filling."""
+        assert len(self.host_rows)
+        return self.boundary.statuses
+
+    @property
+    def around(self) -> tuple[Any, Any]:
+        """Lists and walls on the device."""
+        return self._near, self._walls
+
+    # neighbours
+
+    def find_neighbours(self) -> None:
+        """Find the neighbours on the processor, and bring their lists to the device."""
+        with self._on_host(changed=True):
+            super().find_neighbours()
+        self._place_lists()
+
+    def _place_lists(self) -> None:
+        """Make a list for each particle, of what is within the search radius of it where the lists were built."""
+        lists, n = self.lists, self.fluid_count
+        built = lists.state()
+        position, capacity = put(np.vstack([built["fluid"], built["ghosts"]])), lists.fluid.shape[1]
+        listed = put(lists.fluid), put(lists.fluid_counts), put(lists.ghost_counts)
+        own = room((n, capacity), np.uint32, order="F")
+        own_counts = room((n,), np.uint32), room((n,), np.uint32)
+        reach = lists.radius**2, (lists.radius + lists.half_edge) ** 2
+        self._list_each(position, n, *listed, *reach, self.parameters, own, *own_counts)
+        count = len(lists.near)
+        points, point_counts = room((count, lists.points.shape[1]), np.uint32, order="F"), put(lists.point_counts)
+        self._copy(put(lists.points[:count]), point_counts, points)
+        self._near = SimpleNamespace(
+            fluid=own, fluid_counts=own_counts[0], ghost_counts=own_counts[1], shares=put(lists.shares),
+            points=points, point_counts=point_counts, near=put(lists.near), fluid_count=n,
+            left=put(lists.left) if len(lists.left) else lists.left,
+        )  # fmt: skip
+        self._reference = put(built["fluid"])
+
+    def largest_motion(self) -> LargestMotion:
+        """Return the largest speed of the fluid and its largest displacement since the last neighbour search."""
+        return LargestMotion(*self._largest_motion(self.rows, self._reference, self.columns.dim))
+
+    def neighbours_remain_valid(self, motion: LargestMotion, interval: float) -> bool:
+        """Return whether the lists stay complete; rows are fetched only where the largest motion does not tell."""
+        ahead = motion.displacement + motion.speed * interval
+        if not self.boundary.bodies and 2.0 * ahead <= self.lists.skin:
+            return True
+        return self.lists.remain_valid(
+            self.host_rows, self.boundary.points, motion, wall_speed=self.boundary.speed, interval=interval
+        )
+
+    def keep(self, kept: Any) -> None:
+        """Continue with the fluid particles that are ``kept``."""
+        with self._on_host(changed=True):
+            super().keep(kept)
+
+    # the step
+
+    def move_walls(self, time: float) -> None:
+        """Carry the ghosts to where the bodies are, on the processor, and bring what has changed to the device."""
+        self.bodies.update_motions(time, self._body_loads())
+        self.set_body_force(time)
+        if self._driving.move(self.boundary, self.bodies.motions, self._ghost_rows, time):
+            for name in _WALLS:
+                put_into(getattr(self.boundary, name), getattr(self._walls, name))
+            put_into(self.boundary.driving, self._walls.arrays.force)
+            self._put_ghosts(self.rows, self.fluid_count, put(self._ghost_rows[:, self.columns.position]))
+
+    def put_back(self) -> int:
+        """Put particles that have come behind a wall back on it; return how many there were."""
+        near, walls, solids = self._near, self._walls, self.boundary.solid_contacts
+        marked = put(np.zeros(self.fluid_count if solids.needed else 1, np.bool_))
+        count = self._put_back(
+            self.rows, self.fluid_count, near.fluid, near.fluid_counts, near.ghost_counts, near.shares, walls.passable,
+            self.columns, self.parameters, walls.foot, walls.normal, walls.velocity, marked,
+        )  # fmt: skip
+        if solids.needed and len(behind := np.flatnonzero(fetched(marked))):
+            chosen, beside = put(behind), room((len(behind), self.columns.width))
+            self._take_rows(self.rows, chosen, beside)
+            rows = fetched(beside)
+            moved = solids.put_back(rows, np.ones(len(rows), np.bool_), self.bodies.motions)
+            if moved:
+                self._give_rows(self.rows, chosen, put(rows))
+            count += moved
+        return int(count)
+
+    # checks
+
+    def check_fluid(self, lower: Any, upper: Any, lowest: float, highest: float) -> tuple[int, int, int, int]:
+        """Check the fluid; return the first rows that are wrong, and the number of densities out of range."""
+        corners = [self._corners.setdefault(corner.tobytes(), put(corner)) for corner in (lower, upper)]
+        found: tuple[int, int, int, int] = self._check_fluid(
+            self.rows, self.fluid_count, self.columns, *corners, lowest, highest
+        )
+        return found
+
+    def first_bad_ghost(self) -> int:
+        """Return the first ghost near the fluid that is not finite or has no status; their number if there is none."""
+        near, statuses = self._near.near, self._walls.statuses
+        return int(self._first_bad_ghost(self.rows, self.fluid_count, self.columns, near, statuses, len(Status)))
+
+    # what restarts a run
+
+    def state(self) -> Any:
+        """Return copies of all that the next step depends on, by name."""
+        self.boundary.statuses[:] = fetched(self._walls.statuses)
+        with self._on_host(changed=False):
+            return super().state()
+
+    def restore(self, state: Any) -> None:
+        """Continue from what :meth:`state` returned for the same case."""
+        with self._on_host(changed=True):
+            super().restore(state)
+        put_into(self.boundary.statuses, self._walls.statuses)
+        for name in _WALLS:
+            put_into(getattr(self.boundary, name), getattr(self._walls, name))
+        put_into(self.boundary.driving, self._walls.arrays.force)
+        self._place_lists()

@@ -1,0 +1,35 @@
+"""Runs on a CUDA device, or where there is none on its simulator, are those of the processor."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from numba import cuda
+from typer.testing import CliRunner
+
+from sphframe.cli.app import app
+
+PROGRAM = Path(__file__).parent / "on_device.py"
+LONG = ("with_other_methods", "with_other_treatments")
+CHECKS = ("in_the_plane", "in_space", "moving", "resumed", "against_plain_numpy")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("check", [*CHECKS, *(pytest.param(check, marks=pytest.mark.long) for check in LONG)])
+def test_the_device_computes_what_the_processor_does(check: str) -> None:
+    simulated = {} if cuda.is_available() else {"NUMBA_ENABLE_CUDASIM": "1"}
+    done = subprocess.run(
+        [sys.executable, str(PROGRAM), check], env={**os.environ, **simulated}, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.skipif(cuda.is_available(), reason="there is a CUDA device")
+def test_a_run_without_a_device_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(app, ["run", "dam-break", "--device", "cuda"])
+    assert result.exit_code == 2
+    assert "no CUDA device was found" in " ".join(result.output.split())
+    assert list(tmp_path.iterdir()) == []
