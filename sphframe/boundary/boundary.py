@@ -127,7 +127,7 @@ class Boundary:
         self.images = Images.of(0, self.dim)
         self.arrays = WallArrays(
             self.normal, self.depth, self.height, self.reflection, self.velocity, self.driving, self.volume, self.full,
-            np.zeros_like(self.position), self.wall_state,
+            np.zeros_like(self.position), self.wall_state, self.position, self.wall,
         )  # fmt: skip
 
     @property

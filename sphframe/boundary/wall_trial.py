@@ -81,7 +81,7 @@ def _samples(context: WallContext) -> dict[str, Any]:
         context.kernel, dim, smoothing_length=2.0, reference_density=1000.0, sound_speed=10.0, spacing=1.0, depth=1.0
     )
     numbers = dict.fromkeys(WallSide._fields, 0.0) | {"ny": 1.0, "distance": 1.0}
-    wall = WallPoint(up, 1.0, 1.0, -2.0 * up, -np.eye(dim), zero, zero, 1000.0)
+    wall = WallPoint(up, 1.0, 1.0, -2.0 * up, -np.eye(dim), zero, zero, 1000.0, -up, 0)
     neighbours = Neighbours(2.0 * up[None, :], 2.0 * one, -one, one, one, 1000.0 * one, zero[None, :])
     sides = {"fluid": FluidSide(1.0, 1000.0, 0.0, 0.0, 0.0), "wall": WallSide(**numbers)}
     return {

@@ -70,6 +70,10 @@ class WallPoint(NamedTuple):
         (dim,) b, N/m^3.
     state
         what ``rate`` advances, such as a density; 0 without it.
+    position
+        (dim,) of the particle at present, m.
+    number
+        of its wall among those of the case, from 0, in their order.
     """
 
     normal: Array
@@ -80,6 +84,8 @@ class WallPoint(NamedTuple):
     velocity: Array
     force: Array
     state: float
+    position: Array
+    number: int
 
 
 class Neighbours(NamedTuple):

@@ -13,17 +13,3 @@ says which of the two to upgrade.
 from sphframe.registry.components import check, create, load
 from sphframe.registry.entries import Entry, available, clear, find, is_address
 from sphframe.registry.kinds import API_VERSION, COMPONENT_KINDS, KINDS
-
-__all__ = [
-    "API_VERSION",
-    "COMPONENT_KINDS",
-    "KINDS",
-    "Entry",
-    "available",
-    "check",
-    "clear",
-    "create",
-    "find",
-    "is_address",
-    "load",
-]

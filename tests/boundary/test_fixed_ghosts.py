@@ -34,7 +34,7 @@ def test_pressure_and_velocity_of_a_ghost(dim: int, method: str) -> None:
         offset -= (offset @ normal + total * 0.2) * normal  # the fluid's mean is 0.2 m further from the wall
         reflection = random.normal(size=(dim, dim))
         fluid = Interpolated(OK, neighbours, total, 3.0 * total, extrapolated, offset, velocity)
-        wall = WallPoint(normal, 0.4, 0.3, lift, reflection, wall_u, force, 0.0)
+        wall = WallPoint(normal, 0.4, 0.3, lift, reflection, wall_u, force, 0.0, np.zeros(2), 0)
         found = np.empty(dim)
         pressure, share = assign(fluid, wall, None, found, np.empty(dim))
         lifted = 3.0 * total
@@ -58,7 +58,9 @@ def test_ghosts_may_slip_in_the_continuity_alone(no_slip: bool) -> None:
     offset = np.array([0.1, 0.2])  # the fluid's mean is 0.2 m further from the wall than the evaluation point
     for neighbours in (0, 7):
         fluid = Interpolated(OK, neighbours, 1.0, 3.0, False, offset, wall_u + relative)
-        wall = WallPoint(normal, 0.4, 0.3, np.array([0.0, -0.7]), np.diag([1.0, -1.0]), wall_u, np.zeros(2), 0.0)
+        wall = WallPoint(
+            normal, 0.4, 0.3, np.array([0.0, -0.7]), np.diag([1.0, -1.0]), wall_u, np.zeros(2), 0.0, np.zeros(2), 0
+        )
         found, viscous = np.full((2, 2), np.nan)
         parts.assign(fluid, wall, None, found, viscous)
         s = 0.4 / (0.3 + 0.2) if neighbours else 0.0

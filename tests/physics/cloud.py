@@ -53,7 +53,7 @@ class Cloud:
         return WallArrays(
             normal, random.uniform(0.02, 0.2, g), np.full(g, 0.05), np.tile(-np.eye(self.dim), (g, 1, 1)), vectors[0],
             1e4 * vectors[1], self.rows[self.fluid_count :, Columns.of(self.dim).volume].copy(), np.ones(g),
-            vectors[2], np.full(g, 1000.0),
+            vectors[2], np.full(g, 1000.0), self.rows[self.fluid_count :, : self.dim].copy(), np.zeros(g, np.int64),
         )  # fmt: skip
 
     def parts(self):

@@ -293,3 +293,39 @@ def test_weights_can_depend_on_the_values_of_single_particles():
     means = [fluid.pressure[around].mean() for around in distances < simulation.support]
     assert np.mean(means) > 2.5e3
     np.testing.assert_allclose(ghosts.pressure[below], 1e3, rtol=0.01)
+
+
+class Placed(WallTreatment):
+    """A pressure that tells where the wall particle is and to which wall it belongs."""
+
+    traits = WallTraits()
+
+    def parts(self, context):
+        dim = context.dim
+
+        def assign(fluid, wall, constants, velocity, viscous_velocity):
+            velocity[:] = wall.velocity
+            return 1e4 * (wall.number + 1) + 1e3 * wall.position[0] + 10.0 * wall.position[dim - 1], 1.0
+
+        return WallParts(assign=assign)
+
+
+def _sway(time):
+    return [-0.5 * time, 0.0, 0.3 * time], [-0.5, 0.0, 0.3], [0.0, 0.0, 0.0]
+
+
+@pytest.mark.parametrize("body", [None, "tank"], ids=["at rest", "moving"])
+def test_a_treatment_can_choose_by_wall_and_by_place(body):
+    walls = [
+        {"shape": "polygon", "name": "side", "points": [(0.0, 1.0), (0.0, 0.0)], "body": body},
+        {"shape": "polygon", "name": "rest", "points": [(0.0, 0.0), (0.36, 0.0), (0.36, 1.0)], "body": body},
+    ]
+    moving = {"tank": {"name": "prescribed", "function": _sway}} if body else {}
+    simulation = _box(Placed(), gravity=1.0, walls=walls, bodies=moving)
+    for _ in range(3):
+        simulation.advance()
+    ghosts, near = simulation.ghost_fields(), simulation.system.lists.near
+    number, place = simulation.boundary.wall[near], ghosts.position[near]
+    assert set(number) == {0, 1}
+    expected = 1e4 * (number + 1) + 1e3 * place[:, 0] + 10.0 * place[:, 1]
+    np.testing.assert_allclose(ghosts.pressure[near], expected, rtol=1e-12)

@@ -26,7 +26,7 @@ def assigned(weights, offsets, pressures, velocities, wall_velocity, force):
     count, dim = offsets.shape
     velocity, viscous = np.full((2, dim), np.nan)
     fluid = Interpolated(OK, count, weights.sum(), weights @ pressures, False, weights @ offsets, weights @ velocities)
-    wall = WallPoint(np.eye(dim)[0], 0.1, 0.0, np.zeros(dim), np.eye(dim), wall_velocity, force, 0.0)
+    wall = WallPoint(np.eye(dim)[0], 0.1, 0.0, np.zeros(dim), np.eye(dim), wall_velocity, force, 0.0, np.zeros(dim), 0)
     pressure, share = (
         AdamiWalls().parts(SimpleNamespace(dim=dim, no_slip=True)).assign(fluid, wall, None, velocity, viscous)
     )

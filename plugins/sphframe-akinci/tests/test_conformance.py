@@ -32,7 +32,7 @@ def test_the_volume_of_a_straight_row():
     r = dx * np.arange(-3, 4)
     w = (np.exp(-((r / h) ** 2)) - math.exp(-9)) / (math.pi * h**2 * (1 - 10 * math.exp(-9)))
     zero = np.zeros(2)
-    wall = WallPoint(zero, 0.0, 0.0, zero, np.eye(2), np.array([1.0, -2.0]), zero, 0.0)
+    wall = WallPoint(zero, 0.0, 0.0, zero, np.eye(2), np.array([1.0, -2.0]), zero, 0.0, zero, 0)
     velocity = np.empty(2)
     constants = SimpleNamespace(spacing=dx, smoothing_length=h)
     pressure, share = assign(None, wall, constants, velocity, velocity.copy())

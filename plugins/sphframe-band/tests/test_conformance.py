@@ -32,7 +32,9 @@ def test_linear_pressures_are_continued_beyond_the_fluid_as_a_least_squares_fit(
     assert weights == pytest.approx(fit, abs=1e-9 * np.abs(fit).max())
     pressures, velocity = 700.0 + offsets @ random.normal(size=2) * 1e4, np.empty(2)
     assign = Band().parts(SimpleNamespace(dim=2, no_slip=True)).assign
-    wall = WallPoint(np.array([0.0, -1.0]), 0.1, 0.0, np.zeros(2), np.eye(2), np.array([0.1, 0.2]), force, 0.0)
+    wall = WallPoint(
+        np.array([0.0, -1.0]), 0.1, 0.0, np.zeros(2), np.eye(2), np.array([0.1, 0.2]), force, 0.0, np.zeros(2), 0
+    )
     fluid = Interpolated(OK, 12, weights.sum(), weights @ pressures, False, weights @ offsets, np.zeros(2))
     assert assign(fluid, wall, None, velocity, velocity)[0] == pytest.approx(700.0, abs=1e-6)
     assert velocity.tolist() == [0.1, 0.2]

@@ -20,7 +20,7 @@ from numba.core.dispatcher import Dispatcher
 
 from sphframe.devices import borrowed, fma, local_array, whole
 
-SIMULATED = bool(numba.config.ENABLE_CUDASIM)  # type: ignore[attr-defined]
+SIMULATED = bool(numba.config.ENABLE_CUDASIM)
 """whether Numba's simulator runs the kernels, in Python"""
 THREADS = 2 if SIMULATED else 128
 """threads of a block"""

@@ -27,7 +27,7 @@ from sphframe_cuda.templates import copy_lists, give_rows, list_each, put_ghosts
 
 _GHOSTS_AT_ONCE = 4 if SIMULATED else 32_768
 """ghosts that are filled at the same time, each with scratch memory of its own"""
-_WALLS = ("points", "lifts", "foot", "normal", "reflection", "velocity")
+_WALLS = ("points", "lifts", "foot", "normal", "reflection", "velocity", "position")
 """arrays of the ghosts that change where walls move; ``driving`` is in the arrays of the loops"""
 
 
@@ -74,7 +74,7 @@ class CudaSystem(FluidSystem):
             passable=put(boundary.passable),
             images=type(boundary.images)(*map(put, boundary.images)),
         )
-        shared = {name: getattr(self._walls, name) for name in ("normal", "reflection", "velocity")}
+        shared = {name: getattr(self._walls, name) for name in ("normal", "reflection", "velocity", "position")}
         self._walls.arrays = boundary.arrays._replace(
             **shared, **{name: put(array) for name, array in boundary.arrays._asdict().items() if name not in shared}
         )

@@ -35,7 +35,9 @@ def around(velocity, density):
 
 def wall(state, velocity=(0.0, 0.0), force=(0.0, 0.0)):
     zero = np.zeros(2)
-    return WallPoint(np.array([0.0, -1.0]), 0.5, 0.5, zero, np.eye(2), np.array(velocity), np.array(force), state)
+    return WallPoint(
+        np.array([0.0, -1.0]), 0.5, 0.5, zero, np.eye(2), np.array(velocity), np.array(force), state, zero, 0
+    )
 
 
 def at_rest(x):

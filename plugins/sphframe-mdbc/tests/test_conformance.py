@@ -47,7 +47,7 @@ class Scene:
         fluid = Interpolated(status, neighbours, 1.0, pressure, extrapolated, offset * self.fluid, self.fluid)
         wall = WallPoint(
             self.normal, 0.5 * self.lift @ self.normal, 0.5 * self.lift @ self.normal, self.lift, -np.eye(self.dim),
-            self.wall, self.force, 0.0,
+            self.wall, self.force, 0.0, np.zeros(self.dim), 0,
         )  # fmt: skip
         assign = treatment.parts(SimpleNamespace(dim=self.dim, no_slip=no_slip)).assign
         return *assign(fluid, wall, None, velocity, viscous), velocity, viscous

@@ -27,7 +27,7 @@ def test_the_pressure_of_a_segment_is_hydrostatic():
     b, zero, velocity = np.array([200.0, -9810.0]), np.zeros(2), np.empty(2)
     offset = np.array([0.02, 0.13])  # of the mean position of the fluid from the segment
     fluid = Interpolated(0, 5, 1.0, 500.0 + b @ offset, False, offset, zero)
-    wall = WallPoint(np.array([0.0, -1.0]), 0.0, 0.0, zero, np.eye(2), np.array([0.1, 0.2]), b, 0.0)
+    wall = WallPoint(np.array([0.0, -1.0]), 0.0, 0.0, zero, np.eye(2), np.array([0.1, 0.2]), b, 0.0, zero, 0)
     assert parts().assign(fluid, wall, None, velocity, velocity.copy()) == (pytest.approx(500.0, rel=1e-14), 1.0)
     assert velocity.tolist() == [0.1, 0.2]
 
