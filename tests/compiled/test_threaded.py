@@ -12,7 +12,7 @@ from sphframe.neighbours.approach import relative_displacement
 from sphframe.neighbours.cells import grid_around, put_in_order, sort_by_cell
 from sphframe.neighbours.motion import largest_motion
 from sphframe.particles import Columns
-from sphframe.simulation.guards import _check_fluid
+from sphframe.simulation.row_checks import check_fluid
 from sphframe.simulation.updates import add_columns, advance_state
 
 
@@ -85,7 +85,7 @@ def test_the_first_of_many_rows_that_are_wrong_are_found(rows):
     rows[[9_000, 15_000], columns.u] = np.nan
     rows[[8_000, 19_000], 0] = 2.0
     rows[[7_000, 10_001, 17_000], columns.density] = 500.0
-    found = _check_fluid(rows, len(rows), columns, np.zeros(2), np.ones(2), 900.0, 1100.0)
+    found = check_fluid(rows, len(rows), columns, np.zeros(2), np.ones(2), 900.0, 1100.0)
     assert found == (9_000, 8_000, 7_000, 3)
 
 

@@ -47,8 +47,8 @@ def test_a_run_goes_on_without_its_display(
     monkeypatch.setattr(sys, "stdout", stream)
     path = tmp_path / "run.nc"
     run_command(
-        "hydrostatic-tank", preset=None, overrides=PARAMETERS, threads=1, output=path, overwrite=False,
-        checkpoint_every=60.0, checkpoint_interval=None,
+        "hydrostatic-tank", preset=None, overrides=PARAMETERS, threads=1, device="cpu", output=path,
+        overwrite=False, checkpoint_every=60.0, checkpoint_interval=None,
     )  # fmt: skip
     assert stream.tried > 5
     assert sorted(file.name for file in tmp_path.iterdir()) == ["run.nc", "run.png"]

@@ -24,7 +24,9 @@ def test_all_ghosts_are_checked_in_turn(monkeypatch: pytest.MonkeyPatch, periodi
     lists.build(rows, points)
     boundary = SimpleNamespace(points=points, periods=periods, lift_of_weights=None)
     parameters = SimpleNamespace(support=0.2, smoothing_length=0.1)
-    system: Any = SimpleNamespace(boundary=boundary, columns=columns, lists=lists, rows=rows, parameters=parameters)
+    system: Any = SimpleNamespace(
+        boundary=boundary, columns=columns, lists=lists, host_rows=rows, parameters=parameters
+    )
     checked: dict[tuple[float, ...], int] = {}
 
     def seen(method: Any, at: Any, positions: Any, volumes: Any, near: Any, *others: Any) -> Any:

@@ -158,7 +158,7 @@ def test_sources_are_added_to_the_rates_of_the_solver() -> None:
     found = system.rates.copy()
     pushed = given.wall_force(system.boundary.foot, 0.0)
     np.testing.assert_array_equal(system.boundary.driving, pushed)
-    system._driving._sources = None
+    system._driving.sources = None
     system.evaluate(0.0)
     np.testing.assert_array_equal(system.boundary.driving, pushed)  # walls at rest are not moved again
     found -= system.rates
