@@ -159,17 +159,9 @@ def make_images(  # type: ignore[no-untyped-def]
                     OK, 1, 1.0, rows[i, COLUMNS.pressure], False, nothing, rows[i, COLUMNS.u : COLUMNS.u + DIM]
                 )
                 wall = WallPoint(
-                    walls.normal[g],
-                    half,
-                    half,
-                    lift,
-                    walls.reflection[g],
-                    walls.velocity[g],
-                    walls.force[g],
-                    0.0,
-                    image_rows[row, :DIM],
-                    walls.number[g],
-                )
+                    walls.normal[g], half, half, lift, walls.reflection[g], walls.velocity[g], walls.force[g], 0.0,
+                    image_rows[row, :DIM], walls.number[g],
+                )  # fmt: skip
                 pressure, share = ASSIGN(source, wall, parameters, velocity, unused)
                 if BOUNDED:
                     pressure = max(pressure, LOWEST)

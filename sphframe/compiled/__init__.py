@@ -1,6 +1,6 @@
 """Compiled: the tools with which the loops of Numba are written."""
 
-from sphframe.compiled import cache
+from sphframe.compiled import cache  # before any loop is declared
 from sphframe.compiled.avx512 import prefer_avx512
 from sphframe.compiled.borrowed import borrowed
 from sphframe.compiled.distance import nearest, offset_between, squared_distance, whole

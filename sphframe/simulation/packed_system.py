@@ -20,6 +20,7 @@ class PackedSystem(System):
     """A system whose state is packed ``rows``, with the ``rates`` of the last evaluation; a subclass evaluates them."""
 
     hold_state, advance_state, add_columns = map(staticmethod, (hold_state, advance_state, add_columns))
+    check_rows, check_ghosts = map(staticmethod, (check_fluid, first_bad_ghost))
 
     rows: Array
     lists: NeighbourLists
@@ -126,12 +127,14 @@ class PackedSystem(System):
 
     def check_fluid(self, lower: Array, upper: Array, lowest: float, highest: float) -> tuple[int, int, int, int]:
         """Check the fluid, see :func:`sphframe.simulation.row_checks.check_fluid`."""
-        found: tuple[int, int, int, int] = check_fluid(
+        found: tuple[int, int, int, int] = self.check_rows(
             self.rows, self.fluid_count, self.columns, lower, upper, lowest, highest
         )
         return found
 
     def first_bad_ghost(self) -> int:
         """Return the first ghost near the fluid that is not finite or has no status; their number if there is none."""
-        ghosts, statuses = self.lists.near, self.boundary.statuses
-        return int(first_bad_ghost(self.rows, self.fluid_count, self.columns, ghosts, statuses, len(Status)))
+        lists, walls = self.around
+        return int(
+            self.check_ghosts(self.rows, self.fluid_count, self.columns, lists.near, walls.statuses, len(Status))
+        )

@@ -105,8 +105,7 @@ class Loop:
     """A template as a CUDA kernel, with the names in ``parts`` bound; compiled at its first call.
 
     Its arguments are arrays of the device, numbers, and tuples of these; each keeps its type from call to call. It is
-    always ``parallel``.
-    ``launches`` counts the calls of all loops.
+    always ``parallel``. ``launches`` counts the calls of all loops.
     """
 
     launches = 0

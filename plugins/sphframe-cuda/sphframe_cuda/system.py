@@ -8,7 +8,7 @@ from typing import Any, final
 
 import numpy as np
 
-from sphframe import InputError, Status
+from sphframe import InputError
 from sphframe.devices import (
     FluidSystem,
     ImageFilling,
@@ -55,6 +55,7 @@ class CudaSystem(FluidSystem):
 
     specialise, make_scratch = Loop, staticmethod(_scratch)
     hold_state, advance_state, add_columns = Loop(hold_state), Loop(advance_state), Loop(add_columns)
+    check_rows, check_ghosts = Loop(check_fluid), Loop(first_bad_ghost)
 
     def __init__(self, *arguments: Any) -> None:
         super().__init__(*arguments)
@@ -63,7 +64,6 @@ class CudaSystem(FluidSystem):
         parts = {"DIM": boundary.dim, "PERIODIC": bool(boundary.periods), "CLUSTER": self.lists.cluster}
         self._list_each, self._copy, self._put_ghosts = Loop(list_each, parts), Loop(copy_lists), Loop(put_ghosts)
         self._take_rows, self._give_rows = Loop(take_rows), Loop(give_rows)
-        self._check_fluid, self._first_bad_ghost = Loop(check_fluid), Loop(first_bad_ghost)
         self._largest_motion = Loop(largest_motion)
         self._corners: dict[bytes, Any] = {}
         self._near: Any = None
@@ -112,6 +112,12 @@ class CudaSystem(FluidSystem):
         self._start, self._total = room(self.rates.shape), room(self.rates.shape)
         self._host_rows, self._fetched_after = np.zeros(0), -1
 
+    def _renew_walls(self) -> None:
+        """Bring what changes of walls that move, or of the force, to the device."""
+        for name in _WALLS:
+            put_into(getattr(self.boundary, name), getattr(self._walls, name))
+        put_into(self.boundary.driving, self._walls.arrays.force)
+
     @contextmanager
     def _on_host(self, *, changed: bool) -> Iterator[None]:
         """Hold rows, rates and gradient on the processor meanwhile, where they may be ``changed``."""
@@ -126,17 +132,21 @@ class CudaSystem(FluidSystem):
 
     @property
     def host_rows(self) -> Any:
-        """A copy of the rows on the processor, fetched when they may have changed; with it the ghosts' statuses."""
+        """A copy of the rows on the processor."""
+        self._fetch()
+        return self._host_rows
+
+    def _fetch(self) -> None:
+        """Copy rows and what is assigned to ghosts to the processor if they may have changed."""
         if self._fetched_after != Loop.launches:
             self._host_rows, self._fetched_after = fetched(self.rows), Loop.launches
             self.boundary.statuses[:] = fetched(self._walls.statuses)
             self.boundary.arrays.viscous_velocity[:] = fetched(self._walls.arrays.viscous_velocity)
-        return self._host_rows
 
     @property
     def statuses(self) -> Any:
         """The :class:`Status` (g,) of each ghost at the last filling."""
-        assert len(self.host_rows)
+        self._fetch()
         return self.boundary.statuses
 
     @property
@@ -197,9 +207,7 @@ class CudaSystem(FluidSystem):
         self.bodies.update_motions(time, self._body_loads())
         self.set_body_force(time)
         if self._driving.move(self.boundary, self.bodies.motions, self._ghost_rows, time):
-            for name in _WALLS:
-                put_into(getattr(self.boundary, name), getattr(self._walls, name))
-            put_into(self.boundary.driving, self._walls.arrays.force)
+            self._renew_walls()
             self._put_ghosts(self.rows, self.fluid_count, put(self._ghost_rows[:, self.columns.position]))
 
     def put_back(self) -> int:
@@ -224,16 +232,11 @@ class CudaSystem(FluidSystem):
 
     def check_fluid(self, lower: Any, upper: Any, lowest: float, highest: float) -> tuple[int, int, int, int]:
         """Check the fluid; return the first rows that are wrong, and the number of densities out of range."""
-        corners = [self._corners.setdefault(corner.tobytes(), put(corner)) for corner in (lower, upper)]
-        found: tuple[int, int, int, int] = self._check_fluid(
-            self.rows, self.fluid_count, self.columns, *corners, lowest, highest
-        )
-        return found
-
-    def first_bad_ghost(self) -> int:
-        """Return the first ghost near the fluid that is not finite or has no status; their number if there is none."""
-        near, statuses = self._near.near, self._walls.statuses
-        return int(self._first_bad_ghost(self.rows, self.fluid_count, self.columns, near, statuses, len(Status)))
+        key = lower.tobytes() + upper.tobytes()
+        if key not in self._corners:
+            self._corners[key] = put(lower), put(upper)
+        lower, upper = self._corners[key]
+        return super().check_fluid(lower, upper, lowest, highest)
 
     # what restarts a run
 
@@ -248,7 +251,5 @@ class CudaSystem(FluidSystem):
         with self._on_host(changed=True):
             super().restore(state)
         put_into(self.boundary.statuses, self._walls.statuses)
-        for name in _WALLS:
-            put_into(getattr(self.boundary, name), getattr(self._walls, name))
-        put_into(self.boundary.driving, self._walls.arrays.force)
+        self._renew_walls()
         self._place_lists()
