@@ -8,10 +8,10 @@ A thin wall that stands on a thick one, and moves otherwise, such as a gate on a
 has entered the bed and then crosses the continuation sees the ghosts of the gate: those of the bed are filled from the
 fluid on the other side there. If there is a gap s between gate and bed, this holds in the share 1 - s/dx.
 
-A line that passes the end of a wall without thickness at the distance s is stopped in the share 1/2 - s/dx (s < 0
-where it meets the wall), between 0 and 1, and one that cuts a corner of a thin solid at the distance s in the share
-s/dx. What one particle does not see of another one, it sees of ghosts in its place. With shares of 0 and 1 alone, sums
-near these ends would jump by a whole particle when the lists are made again.
+A line that passes the end of a wall without thickness at the distance s, between the two particles, is stopped in the
+share 1/2 - s/dx (s < 0 where it meets the wall), between 0 and 1, and one that cuts a corner of a thin solid at the
+distance s in the share s/dx. What one particle does not see of another one, it sees of ghosts in its place. With shares
+of 0 and 1 alone, sums near these ends would jump by a whole particle when the lists are made again.
 """
 
 import math
@@ -58,12 +58,16 @@ def _area(ax, ay, bx, by, cx, cy):  # type: ignore[no-untyped-def]
 def _left(px, py, qx, qy, x, y, smooth):  # type: ignore[no-untyped-def]
     """Return 1 where a point lies on the left of the line from p to q, else 0; with ``smooth`` > 0, over that width.
 
-    A line through the common point of two sides that continue each other crosses exactly one of them.
+    The width is measured from what lies between p and q. A line through the common point of two sides that continue
+    each other crosses exactly one of them.
     """
     area = _area(px, py, qx, qy, x, y)
     if smooth <= 0.0:
         return 1.0 if area > 0.0 else 0.0
-    return min(max(0.5 + area / (smooth * math.hypot(qx - px, qy - py)), 0.0), 1.0)
+    ux, uy = qx - px, qy - py
+    along = min(max(((x - px) * ux + (y - py) * uy) / (ux * ux + uy * uy), 0.0), 1.0)
+    distance = math.hypot(x - px - along * ux, y - py - along * uy)
+    return min(max(0.5 + math.copysign(distance, area) / smooth, 0.0), 1.0)
 
 
 @numba.njit(error_model="numpy")
@@ -227,7 +231,11 @@ def share_of_ghost(px, py, qx, qy, g, near, count, sight):  # type: ignore[no-un
 
 @numba.njit(error_model="numpy")
 def _sides_near(x0, x1, y0, y1, radius, sight, near):  # type: ignore[no-untyped-def]
-    """List the sides within ``radius`` of a box; their number, -1 if no thin one is within twice that distance."""
+    """List the sides that may hide what is within ``radius`` of a box; -1 if no thin one is within twice that distance.
+
+    Returns their number. An end hides what lies within half a spacing of it, too.
+    """
+    reach = radius + sight.spacing
     count = 0
     any_thin = False
     for k in range(sight.ends.shape[0]):
@@ -237,7 +245,7 @@ def _sides_near(x0, x1, y0, y1, radius, sight, near):  # type: ignore[no-untyped
         gap = max(gap_x, gap_y)
         if gap < 2.0 * radius:
             any_thin = any_thin or sight.thin[k]
-            if gap < radius:
+            if gap < reach:
                 near[count] = k
                 count += 1
     return count if any_thin else -1

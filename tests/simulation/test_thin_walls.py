@@ -125,9 +125,7 @@ def test_water_round_a_free_end_stays_at_rest(wall, fluid):
     np.testing.assert_allclose([load.force[0], load.force_by_pressure[0]], 0.0, atol=1.0)
 
 
-def test_fluid_and_walls_together_conserve_momentum():
-    simulation = made([plate((0.6, 0), (0.6, 0.1))], [region((0, 0), (0.3, 0.4))])
-    advance(simulation, 0.3)  # the water hits the plate and runs over it
+def assert_momentum_is_conserved(simulation):
     system = simulation.system
     system.evaluate(simulation.time)
     system.update_loads()
@@ -135,7 +133,13 @@ def test_fluid_and_walls_together_conserve_momentum():
     masses = system.rows[: system.fluid_count, columns.mass]
     rate = masses @ system.rates[:, columns.u : columns.u + 2]
     weight = np.array([0.0, -9.81 * masses.sum()])
-    np.testing.assert_allclose(rate, weight - system.loads[:, :2].sum(axis=0), atol=1e-9 * abs(weight[1]))
+    np.testing.assert_allclose(rate, weight - system.loads[:, :2].sum(axis=0), rtol=0.0, atol=1e-11 * abs(weight[1]))
+
+
+def test_fluid_and_walls_together_conserve_momentum():
+    simulation = made([plate((0.6, 0), (0.6, 0.1))], [region((0, 0), (0.3, 0.4))])
+    advance(simulation, 0.3)  # the water hits the plate and runs over it
+    assert_momentum_is_conserved(simulation)
 
 
 def test_a_dam_break_does_not_cross_a_plate():
@@ -211,8 +215,9 @@ def test_nothing_crosses_a_curved_plate_that_moves(tmp_path):
     left, above = is_left(), simulation.fields().position[:, 1] > low + 2 * SPACING
     while simulation.time < 0.3:
         simulation.advance()
-        if simulation.step % 40 == 0:
+        if simulation.step % 20 == 0:
             np.testing.assert_array_equal(is_left()[above], left[above])
+            assert_momentum_is_conserved(simulation)
     assert simulation.particles_outside() == 0
     load = simulation.wall_loads()["plate"]
     assert load.force[0] < -20.0  # the water resists
