@@ -77,7 +77,8 @@ class SolidDomain:
     def chosen_feet(self, points: Array, lean: float) -> Feet:
         """Return nearest points of the boundary as :meth:`feet` does; of several, those in an oblique direction.
 
-        This choice is made by points that are moved by ``lean`` (m), so that it does not depend on round-off.
+        This choice is made by points that are moved by ``lean`` (m), so that it does not depend on round-off. A chosen
+        point is at most twice this distance further than the nearest one.
         """
         from trimesh.triangles import closest_point
 
