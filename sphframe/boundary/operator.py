@@ -166,7 +166,7 @@ class Workspace(NamedTuple):
     def touched(self) -> list[str]:
         """Return the names of the arrays before or after which something has been written."""
         ends = ((name, array[:MARGIN], array[-MARGIN:]) for name, array in self._asdict().items())
-        return [name for name, *margins in ends if any(np.any(margin != _UNTOUCHED) for margin in margins)]
+        return [name for name, *margins in ends if any(one.tobytes() != _MARGIN[: one.nbytes] for one in margins)]
 
     def check(self, interpolator: BoundaryInterpolator) -> None:
         """Raise a BrokenPluginError if the method has written before or after an array."""
@@ -179,6 +179,7 @@ class Workspace(NamedTuple):
 
 MARGIN = 16
 _UNTOUCHED = 7.25
+_MARGIN = np.full(3 * MARGIN, _UNTOUCHED).tobytes()
 
 
 def _fill_rows(  # type: ignore[no-untyped-def]

@@ -5,13 +5,14 @@ from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import Any
 
+import numba
 import numpy as np
 
 from sphframe.arrays import Array
 from sphframe.boundary.operator import MARGIN, Workspace
 from sphframe.boundary.trial import weights_functions
 from sphframe.compiled import specialise
-from sphframe.compiled.stand_ins import FALLBACK, WEIGHTS
+from sphframe.compiled.stand_ins import FALLBACK, VALUE, WEIGHTS
 from sphframe.interfaces import BoundaryInterpolator, CompiledKernel, EvaluationPoint, Kernel
 from sphframe.interfaces.traits import OK
 from sphframe.kernels import compiled_kernel
@@ -83,7 +84,7 @@ def point_loop(
     chosen = create("kernels", kernel) if isinstance(kernel, str) else kernel
     weights, fallback = weights_functions(method, compiled_kernel(chosen, dim), dim)
     weigh = specialise(_weigh, {"WEIGHTS": weights, "FALLBACK": fallback}, parallel=False)
-    value, normalisation = chosen.value_function(), chosen.normalisation(dim)
+    values, normalisation = _values_of(chosen, dim, named=isinstance(kernel, str)), chosen.normalisation(dim)
 
     def run(cloud: Cloud, garbage: float) -> tuple[Outcome, Workspace]:
         work, inside = Workspace.of(len(cloud), dim), slice(MARGIN, MARGIN + len(cloud))
@@ -93,12 +94,29 @@ def point_loop(
             cloud.distances,
             cloud.volumes,
         )
-        work.kernel_values[inside] = [normalisation / h**dim * value(r / h) for r in cloud.distances.tolist()]
+        values(cloud.distances, 1.0 / h, normalisation / h**dim, work.kernel_values[inside])
         work.out[inside] = garbage
         status = weigh(*(array[inside] for array in work[:4]), cloud.support, cloud.lift, work.out[inside])
         return Outcome(work.out[inside].copy(), int(status)), work
 
     return run
+
+
+def _values_of(kernel: Kernel, dim: int, *, named: bool) -> Callable[[Array, float, float, Array], None]:
+    """Return :func:`_values` for a kernel, compiled for one that has a name, with which many clouds are evaluated."""
+    if named and not numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
+        return specialise(_values, {"VALUE": compiled_kernel(kernel, dim).value}, parallel=False)
+    value = kernel.value_function()
+
+    def values(distances: Array, per_h: float, scale: float, out: Array) -> None:
+        out[:] = [scale * value(r * per_h) for r in distances.tolist()]
+
+    return values
+
+
+def _values(distances, per_h, scale, out):  # type: ignore[no-untyped-def]
+    for j in range(distances.shape[0]):
+        out[j] = scale * VALUE(distances[j] * per_h)
 
 
 def _weigh(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]

@@ -7,7 +7,7 @@ spacing.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,7 +56,7 @@ class Cloud:
         """2 or 3."""
         return int(self.offsets.shape[1])
 
-    @property
+    @cached_property
     def distances(self) -> Array:
         """(n,): lengths of the offsets, m."""
         lengths: Array = np.sqrt(np.sum(self.offsets**2, axis=1))
