@@ -221,7 +221,7 @@ def test_a_defect_has_no_traceback_unless_asked_for(tmp_path: Path, monkeypatch:
     assert isinstance(call(*arguments, SPHFRAME_DEBUG="1").exception, RuntimeError)
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.long)])
 def test_an_interrupted_run_keeps_its_output(tmp_path: Path, number: signal.Signals) -> None:
     command = [sys.executable, "-m", "sphframe", "run", "hydrostatic-tank", *SMALL, "--until", "1000"]
     with subprocess.Popen(

@@ -107,7 +107,7 @@ def simple_polygons(draw):
     return polygon
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(simple_polygons())
 def test_random_polygons_from_inside_and_from_outside(polygon):
     basin = basin_around(polygon)

@@ -110,7 +110,7 @@ def turned_box(tmp_path, size=(10, 9, 8)):
     return str(tmp_path / "box.stl")
 
 
-@pytest.mark.parametrize("radius", [3, 5, 9.3])
+@pytest.mark.parametrize("radius", [3, 5, 7.3])
 def test_spheres_are_filled_from_inside_and_from_outside(radius):
     centre = (0.2, 0.1, 0.3)
     inside = group_of(SphereWall(centre=centre, radius=radius), fluid=Sphere(centre=centre, radius=radius), spacing=1.0)
@@ -135,7 +135,7 @@ def test_cylinders_boxes_and_turned_boxes_are_filled(tmp_path):
         assert np.sqrt(np.mean(error**2)) <= rms, (wall, fluid)
 
 
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=3, deadline=None)
 @example((10.0, 11.0, 9.0), (0.0, 0.0, 0.0), 1.0)
 @example((8.0, 8.0, 8.0), (0.0, 0.2, 0.0), 0.2)  # a ghost nearly as near to two faces
 @given(st.tuples(*[st.floats(8.0, 14.0)] * 3), st.tuples(*[st.floats(-3.0, 3.0)] * 3), st.floats(0.2, 3.0))

@@ -72,6 +72,7 @@ def test_zarr(path: Path, tmp_path: Path) -> None:
     assert xr.open_zarr(store).sph.summary() == original.sph.summary()
 
 
+@pytest.mark.parametrize("path", ["complete"], indirect=True)
 def test_the_accessor_needs_no_import_of_sphframe(path: Path) -> None:
     program = f"import xarray; d = xarray.open_dataset({str(path)!r}); print(d.sph.summary()['steps'])"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)

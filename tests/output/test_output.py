@@ -114,7 +114,7 @@ def test_killed_at_random_moments(tmp_path: Path) -> None:
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdin is not None
         assert process.stdout is not None
-        for attempt in range(25):
+        for attempt in range(12):
             path = tmp_path / f"run{attempt}.nc"
             print(generator.uniform(1e-6, 0.3), path, file=process.stdin, flush=True)
             assert process.stdout.readline() == "killed\n"

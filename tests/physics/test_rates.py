@@ -63,9 +63,8 @@ def slow_rates(cloud, gradient, diffusion, viscosity, body_force, force_gradient
     return rates
 
 
-@pytest.mark.parametrize("dim", [2, 3])
-@pytest.mark.parametrize("kernel", ["gaussian", "wendland-c2"])
-def test_rates_equal_the_slow_version(dim, kernel):
+@pytest.mark.parametrize(("kernel", "dim"), [("gaussian", 2), ("gaussian", 3), ("wendland-c2", 2)])
+def test_rates_equal_the_slow_version(kernel, dim):
     cloud = make_cloud(dim, 1, kernel=kernel, cells=9 if dim == 2 else 5)
     gradient = cloud.density_gradient()
     expected_gradient = slow_gradient(cloud)

@@ -43,7 +43,7 @@ class ShakenTank(Custom):
 
 FLUME: dict[str, Any] = {
     "particle_spacing": 0.03,
-    "until": 0.6,
+    "until": 0.3,
     "frame_interval": 0.04,
     "probe_interval": 0.01,
     "walls": [

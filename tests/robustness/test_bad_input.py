@@ -289,7 +289,7 @@ def broken_case_files(draw: st.DrawFn) -> str:
     return "\n".join(lines)
 
 
-@settings(deadline=None, max_examples=300, suppress_health_check=list(HealthCheck))
+@settings(deadline=None, max_examples=120, suppress_health_check=list(HealthCheck))
 @given(text=broken_case_files())
 def test_a_broken_case_file_is_a_case_or_an_error_with_a_message(tmp_path: Path, text: str) -> None:
     path = tmp_path / "case.toml"

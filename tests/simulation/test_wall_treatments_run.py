@@ -2,7 +2,8 @@
 
 Without tension, none holds water up: films under a ceiling fall, contact lines stay, nothing hangs on walls. All these
 cases have the parameters of ``SMALL``, so that the loops of a treatment are compiled once; the viscosity is that of
-water, which the films do not feel.
+water, which the films do not feel. Those of one treatment of each class run here, the others are long tests: here their
+loops are those with ``FREE`` tension, as the checks of traits compile them.
 """
 
 import numba
@@ -22,13 +23,15 @@ REPELLING = ("lennard-jones", "monaghan-kajtar-2009")
 
 
 MOST = numba.config.NUMBA_NUM_THREADS
-ON_THREADS = ("fixed-ghosts", "edge-integrals")
-"""one treatment of each kind of loop; a long test has all"""
-PLAIN, IN_SPACE = {}, {"dimension": 3}
+ON_THREADS = ("fixed-ghosts",)
+"""a long test has all"""
+CLASSES = ("fixed-ghosts", "dynamic-2007", "mirror-images", "pair-mirror")
+"""treatments whose walls are ghosts that are filled, particles with a state, images, and seen by each pair"""
+PLAIN, FREE, IN_SPACE = {}, {"tension": "free"}, {"dimension": 3}
 VARIANTS = [
     *((name, PLAIN) for name in TREATMENTS if name not in ON_THREADS),
     *((name, IN_SPACE) for name in ("fixed-ghosts", "dynamic-2007", "lennard-jones", "mirror-images", "pair-mirror")),
-    *((name, {"tension": "free"}) for name in ("fixed-ghosts", "edge-integrals", "mirror-images", "pair-mirror")),
+    *((name, FREE) for name in ("fixed-ghosts", "edge-integrals", "mirror-images", "pair-mirror")),
     *((name, {"slip": "free"}) for name in ("fixed-ghosts", "mdbc-2025", "riemann-2017", "usaw-2013")),
     ({"name": "akinci-2012", "row": True}, PLAIN),
     ({"name": "distance-ratio", "continuity": "ratio", "cap": 1.5}, PLAIN),
@@ -82,7 +85,7 @@ def run_and_continue(treatment, integrator, threads, changes):
     ],
 )
 def test_runs_continue_to_the_bit_on_any_number_of_threads(treatment, integrator, threads):
-    run_and_continue(treatment, integrator, threads, PLAIN)
+    run_and_continue(treatment, integrator, threads, PLAIN if treatment in CLASSES else FREE)
 
 
 @pytest.mark.long
@@ -91,7 +94,12 @@ def test_threads_do_not_change_the_bits_of_any_treatment(treatment, changes):
     run_and_continue(treatment, "symplectic", MOST, changes)
 
 
-@pytest.mark.parametrize("treatment", [name for name in TREATMENTS if name not in REPELLING])
+def in_classes(treatments):
+    """The parameters of a test that is long for treatments which are not named in CLASSES."""
+    return [pytest.param(name, marks=[] if name in CLASSES else pytest.mark.long) for name in treatments]
+
+
+@pytest.mark.parametrize("treatment", in_classes(name for name in TREATMENTS if name not in REPELLING))
 def test_films_and_a_drop_under_a_ceiling_fall_freely(treatment):
     spacing, gravity = 0.02, 9.81
     films = [
@@ -111,7 +119,7 @@ def test_films_and_a_drop_under_a_ceiling_fall_freely(treatment):
 STILL = [name for name in TREATMENTS if create("wall_treatments", name).traits.exact_hydrostatic]
 
 
-@pytest.mark.parametrize("treatment", STILL)
+@pytest.mark.parametrize("treatment", in_classes(STILL))
 def test_the_contact_line_of_still_water_stays_flat(treatment):
     given = {**SMALL, "particle_spacing": 0.03, "wall_treatment": treatment}
     simulation = Simulation(load_case("hydrostatic-tank", None, given), threads=1)
@@ -123,9 +131,9 @@ def test_the_contact_line_of_still_water_stays_flat(treatment):
     assert moved.max() < 0.1 * 0.03
 
 
-@pytest.mark.parametrize("treatment", ["fixed-ghosts", "dynamic-2007", "mirror-images", "pair-mirror"])
+@pytest.mark.parametrize("treatment", CLASSES)
 def test_nothing_hangs_on_walls_after_a_dam_break(treatment):
-    """One of each class of treatments; validation/wall_treatments has all.
+    """validation/wall_treatments has all treatments.
 
     What has stayed at a wall for 0.1 s has water below it, within a cone of 45 degrees, at t sqrt(g/H) = 10."""
     simulation = Simulation(load_case("dam-break", None, {**SMALL, "wall_treatment": treatment}), threads=1)

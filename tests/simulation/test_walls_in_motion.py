@@ -77,7 +77,7 @@ def test_tank_swung_with_no_net_change_returns_to_rest() -> None:
             values = [0.0, 0.0, 0.0]
         return tuple((value, 0.0, 0.0) for value in values)  # type: ignore[return-value]
 
-    simulation = Simulation(TankInMotion(motion=there_and_back), threads=1)
+    simulation = Simulation(TankInMotion(motion=there_and_back, particle_spacing=0.03), threads=1)
     start = simulation.fields().position
     fastest = 0.0
     while simulation.time < 3.6:
@@ -90,7 +90,7 @@ def test_tank_swung_with_no_net_change_returns_to_rest() -> None:
 
 def test_floating_box_finds_archimedes_draught() -> None:
     case = FloatingBody(
-        depth=0.3, tank_length=0.8, box_length=0.24, box_height=0.16, particle_spacing=0.02, initial_draught=0.06
+        depth=0.3, tank_length=0.8, box_length=0.24, box_height=0.16, particle_spacing=0.0267, initial_draught=0.06
     )
     simulation = Simulation(case, threads=1)
     draughts = []

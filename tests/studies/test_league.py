@@ -146,7 +146,7 @@ def test_wrong_input_is_refused(arguments: dict[str, object], message: str, tmp_
 
 
 def test_repeats_of_a_comparison_give_bands(cluster: str, tmp_path: Path) -> None:
-    tank = {"particle_spacing": 0.06, "tank_length": 0.3, "until": 0.1, "probe_interval": 0.01}
+    tank = {"particle_spacing": 0.06, "tank_length": 0.3, "until": 0.05, "probe_interval": 0.005}
     found = compare(
         "hydrostatic-tank", ["improved-shepard", "shepard"], output=tmp_path, parameters=tank, repeats=3,
         scheduler=cluster,

@@ -1,4 +1,4 @@
-"""Checks of runs on the device, one per process: ``python on_device.py CHECK``.
+"""Checks of runs on the device, in one process: ``python on_device.py CHECK ...``.
 
 Numba decides at its import whether the device is simulated (``NUMBA_ENABLE_CUDASIM=1``).
 """
@@ -63,9 +63,10 @@ def compare(steps: int = 2, case: Case | None = None, **options: Any) -> list[Si
 
 
 def in_the_plane() -> None:
-    """The default method, and one with two calls of its weights, with Runge-Kutta."""
+    """The default method, one with two calls of its weights and Runge-Kutta, and walls that do not attract."""
     compare(steps=3)
-    compare(interpolator="adami", integrator="rk4", tension="none", slip="no", kinematic_viscosity=0.01)
+    compare(interpolator="adami", integrator="rk4")
+    compare(tension="none", slip="no", kinematic_viscosity=0.01)
 
 
 def with_other_methods() -> None:
@@ -123,12 +124,16 @@ def against_plain_numpy() -> None:
     sys.path.insert(0, str(Path(__file__).parents[3] / "tests"))
     from reference.test_plain import compare as compare_with_numpy
 
-    Simulation.__init__.__kwdefaults__["device"] = "cuda"
+    options = Simulation.__init__.__kwdefaults__
+    options["device"] = "cuda"
     compare_with_numpy(7, 2, "moving", slip="no")
     compare_with_numpy(8, 2, "box", hydrostatic_lift="mirror", interpolator="normalized", kinematic_viscosity=0.02)
+    options["device"] = "cpu"
 
 
 CHECKS = (in_the_plane, with_other_methods, with_other_treatments, in_space, moving, resumed, against_plain_numpy)
 
 if __name__ == "__main__":
-    {check.__name__: check for check in CHECKS}[sys.argv[1]]()
+    for name in sys.argv[1:]:
+        print(name, flush=True)
+        {check.__name__: check for check in CHECKS}[name]()

@@ -13,17 +13,17 @@ from sphframe.cli.app import app
 
 PROGRAM = Path(__file__).parent / "on_device.py"
 LONG = ("with_other_methods", "with_other_treatments")
-CHECKS = ("in_the_plane", "in_space", "moving", "resumed", "against_plain_numpy")
+CHECKS = ["in_the_plane", "in_space", "moving", "resumed", "against_plain_numpy"]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("check", [*CHECKS, *(pytest.param(check, marks=pytest.mark.long) for check in LONG)])
-def test_the_device_computes_what_the_processor_does(check: str) -> None:
+@pytest.mark.parametrize("checks", [CHECKS, *(pytest.param([check], marks=pytest.mark.long) for check in LONG)])
+def test_the_device_computes_what_the_processor_does(checks: list[str]) -> None:
     simulated = {} if cuda.is_available() else {"NUMBA_ENABLE_CUDASIM": "1"}
     done = subprocess.run(
-        [sys.executable, str(PROGRAM), check], env={**os.environ, **simulated}, capture_output=True, text=True
+        [sys.executable, str(PROGRAM), *checks], env={**os.environ, **simulated}, capture_output=True, text=True
     )
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"
 
 
 @pytest.mark.skipif(cuda.is_available(), reason="there is a CUDA device")

@@ -17,9 +17,9 @@ COARSE: dict[str, tuple[dict[str, Any], dict[str, float]]] = {
     ),
     "stokes-plate": ({"particle_spacing": 0.1, "until": 0.8, "kinematic_viscosity": 0.2}, {"velocity": 0.05}),
     "oscillating-cylinder": ({"particle_spacing": 0.02, "until": 1.5}, {"added_mass_inner": 0.06}),
-    "poiseuille": ({"particle_spacing": 0.0625}, {"velocity": 0.012, "start_up": 0.012, "stress": 1e-3}),
+    "poiseuille": ({"particle_spacing": 0.0625, "until": 6.0}, {"velocity": 0.012, "start_up": 0.012, "stress": 1e-3}),
     "couette": ({"particle_spacing": 0.0625, "until": 5.0}, {"velocity": 0.01}),
-    "cylinder-array": ({}, {"drag_factor": 0.02, "force": 0.02}),
+    "cylinder-array": ({"particle_spacing": 1.0 / 30.0}, {"drag_factor": 0.02, "force": 0.02}),
     "tilted-tank": ({"particle_spacing": 0.06, "until": 0.3}, {"pressure": 0.02, "weight": 0.01, "thrust": 0.01}),
     "circular-sill": (
         {"particle_spacing": 0.05, "until": 0.3},

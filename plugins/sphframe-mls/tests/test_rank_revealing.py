@@ -39,7 +39,7 @@ def test_has_its_traits(method, check):
     check(method)
 
 
-@pytest.mark.parametrize("method", [LINEAR, QUADRATIC])
+@pytest.mark.parametrize("method", [LINEAR, pytest.param(QUADRATIC, marks=pytest.mark.long)])
 def test_methods_have_the_traits_that_depend_on_their_fallback(method):
     for check in checks_of(method):
         if check.name in ("rank", "rotation_invariance", "partition_of_unity"):
