@@ -18,7 +18,7 @@ Motion = tuple[Array, Array, Array]
 """displacement and turn, velocity, acceleration of a body: (3,) in 2-D, (6,) in 3-D"""
 
 
-def improved_shepard(r: Array, inside: Array, values: Array, volumes: Array, support: float) -> Array:
+def improved_shepard(offset: Array, r: Array, inside: Array, values: Array, volumes: Array, support: float) -> Array:
     """phi^4 / sum phi^4 with phi = exp[-s^2 / (1 - s^2)] / s, s = r/R, by logarithms."""
     s = np.where(inside, r / support, 0.5)
     powers = np.where(inside, 4.0 * (-(s**2) / (1.0 - s**2) - np.log(s)), -np.inf)
@@ -26,14 +26,28 @@ def improved_shepard(r: Array, inside: Array, values: Array, volumes: Array, sup
     return shared(np.exp(powers - highest[:, None]))
 
 
-def shepard(r: Array, inside: Array, values: Array, volumes: Array, support: float) -> Array:
+def shepard(offset: Array, r: Array, inside: Array, values: Array, volumes: Array, support: float) -> Array:
     """r^-2 / sum r^-2."""
     return shared(np.where(inside, 1.0 / np.where(inside, r, 1.0) ** 2, 0.0))
 
 
-def normalised(r: Array, inside: Array, values: Array, volumes: Array, support: float) -> Array:
+def normalised(offset: Array, r: Array, inside: Array, values: Array, volumes: Array, support: float) -> Array:
     """W V / sum W V."""
     return shared(values * volumes)
+
+
+def moving_least_squares(
+    offset: Array, r: Array, inside: Array, values: Array, volumes: Array, support: float
+) -> Array:
+    """e_1 M^-1 b_j W_j V_j, M = sum b_j b_j W_j V_j; the average where neighbours are few or sum |phi| is above 3."""
+    found, part = normalised(offset, r, inside, values, volumes, support), values * volumes
+    basis = np.concatenate([np.ones((*r.shape, 1)), 3.0 * offset / support], axis=2)
+    for k in np.flatnonzero(inside.sum(axis=1) >= basis.shape[2]):
+        moments = (basis[k] * part[k, :, None]).T @ basis[k]
+        if np.linalg.cond(moments) < 1e12:
+            phi = np.linalg.solve(moments, (basis[k] * part[k, :, None]).T)[0]
+            found[k] = phi if np.abs(phi).sum() <= 3.0 else found[k]
+    return found
 
 
 def shared(weights: Array) -> Array:
@@ -111,7 +125,7 @@ class Plain:
         r = np.linalg.norm(offset, axis=2)
         inside = r < self.support
         values = self.kernel(r)
-        phi = self.weights(r, inside, values, self.v, self.support)
+        phi = self.weights(offset, r, inside, values, self.v, self.support)
         wet = inside.any(axis=1)
         lift = self.ghost - self.mirror
         if self.case.hydrostatic_lift == "balanced":

@@ -10,11 +10,16 @@ from sphframe import BodyForce, Simulation
 from sphframe.cases import Custom
 from sphframe.geometry import BoxRegion, BoxWall, PolygonWall
 
-from .plain import Motion, Plain, improved_shepard, normalised, shepard, turn
+from .plain import Motion, Plain, improved_shepard, moving_least_squares, normalised, shepard, turn
 
 Array = NDArray[np.float64]
 DX = 0.1
-WEIGHTS = {"improved-shepard": improved_shepard, "shepard": shepard, "normalized": normalised}
+WEIGHTS = {
+    "improved-shepard": improved_shepard,
+    "shepard": shepard,
+    "normalized": normalised,
+    "mls-linear": moving_least_squares,
+}
 
 
 class Swirl(BodyForce):

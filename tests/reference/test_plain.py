@@ -82,6 +82,15 @@ def test_the_mirror_lift_and_laminar_viscosity_in_the_plane(seed: int, walls: st
     )  # fmt: skip
 
 
+LEAST_SQUARES = {"interpolator": "mls-linear", "hydrostatic_lift": "mirror"}
+
+
+@settings(max_examples=5)
+@given(SEEDS, st.sampled_from(["box", "moving"]))
+def test_moving_least_squares_in_the_plane(seed: int, walls: str) -> None:
+    compare(seed, 2, walls, **LEAST_SQUARES)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize(
     ("dim", "options"),
@@ -91,10 +100,11 @@ def test_the_mirror_lift_and_laminar_viscosity_in_the_plane(seed: int, walls: st
              "tension": "free"}),
         (2, {"ghost_velocity": "interpolated", "interpolator": "shepard", "kinematic_viscosity": 0.02,
              "viscosity_model": "monaghan-gingold", "lowest_pressure": -300.0}),
+        (2, LEAST_SQUARES),
         (3, {}),
         (3, {"hydrostatic_lift": "mirror", "interpolator": "normalized", "kinematic_viscosity": 0.02}),
     ],
-    ids=["default", "mirror", "interpolated", "space", "mirror-in-space"],
+    ids=["default", "mirror", "interpolated", "least-squares", "space", "mirror-in-space"],
 )  # fmt: skip
 def test_two_hundred_scenes(dim: int, options: dict[str, Any]) -> None:
     for seed in range(1000, 1040):
