@@ -115,7 +115,7 @@ def test_spheres_are_filled_from_inside_and_from_outside(radius):
     centre = (0.2, 0.1, 0.3)
     inside = group_of(SphereWall(centre=centre, radius=radius), fluid=Sphere(centre=centre, radius=radius), spacing=1.0)
     outside = group_of(SphereWall(centre=centre, radius=radius), fluid=FAR, spacing=1.0)
-    for group, rms in ((inside, 0.02), (outside, 0.01)):
+    for group, rms in ((inside, 0.0165 if radius == 3 else 0.0145), (outside, 0.01)):
         error = filling_errors(group, 1.0, count=150)
         assert np.abs(error).max() <= 0.03
         assert np.sqrt(np.mean(error**2)) <= rms
