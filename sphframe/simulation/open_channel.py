@@ -13,7 +13,7 @@ from sphframe.compiled import specialise
 from sphframe.errors import SimulationError
 from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns
-from sphframe.physics import LoopParameters, invert_pressure
+from sphframe.physics import LoopParameters, invert_pressure, update_pressure
 from sphframe.physics.open_ends import fit_sums
 
 _CROSSINGS = 5.0
@@ -43,7 +43,7 @@ class OpenChannel:
         self._heights = ends.bottom + spacing * (np.arange(round((ends.top - ends.bottom) / spacing)) + 0.5)
         self._pressure = parts["PRESSURE"]
         self._fit = specialise(fit_sums, parts)
-        self._invert = specialise(invert_pressure, parts, parallel=False)
+        self._invert, self._update = (specialise(f, parts, parallel=False) for f in (invert_pressure, update_pressure))
         self._nodes = np.zeros((0, 2))
         self._lists, self._counts = np.zeros((0, 8), np.uint32), np.zeros(0, np.uint32)
         self._inflow = self._outflow = np.zeros(0, np.int64)
@@ -83,8 +83,8 @@ class OpenChannel:
         slope = self._smoothed(float(entering[:, 1].mean()), time, parameters.sound_speed)
         state[:, columns.pressure] = np.interp(y, self._heights, entering[:, 0]) + slope * behind
         self._invert(state, len(state), parameters)
-        state[:, columns.volume] = self._volume
         state[:, columns.mass] = self._volume * state[:, columns.density]
+        self._update(state, len(state), parameters)  # as after a restart: that of the density, to the bit
         rows[self._inflow] = state
         state = rows[self._outflow]
         y = state[:, 1]
@@ -94,7 +94,7 @@ class OpenChannel:
         state[:, columns.velocity] = np.column_stack([u, v])
         state[:, columns.pressure] = p_out + slope * (state[:, 0] - ends.outflow)
         self._invert(state, len(state), parameters)
-        state[:, columns.volume] = state[:, columns.mass] / state[:, columns.density]
+        self._update(state, len(state), parameters)
         rows[self._outflow] = state
 
     def _fits(self, rows: Array, parameters: LoopParameters) -> Array:

@@ -1,8 +1,8 @@
 """Small cases whose runs take about a second, and a comparison of all bits of two runs.
 
-Run as a program, it starts a process for each line ``STEPS DELAY FOLDER`` of its input. The process runs a case in the
-folder, or continues it, and is killed DELAY s of processor time after STEPS steps. With STEPS = 0 the delay counts from
-the start; with STEPS = -1 the run comes to its end.
+Run as a program, it starts a process for each line ``NAME STEPS DELAY FOLDER`` of its input. The process runs that case
+in the folder, or continues it, and is killed DELAY s of processor time after STEPS steps. With STEPS = 0 the delay
+counts from the start; with STEPS = -1 the run comes to its end.
 """
 
 import os
@@ -73,6 +73,30 @@ SHAKEN: dict[str, Any] = {
     "probes": [{"name": "toe", "position": (0.15, 0.1, 0.0)}],
 }
 
+CHANNEL: dict[str, Any] = {
+    "particle_spacing": 0.1,
+    "until": 1.2,
+    "time_step": 3e-3,
+    "frame_interval": 0.1,
+    "probe_interval": 0.02,
+    "gravity": 0.0,
+    "sound_speed": 10.0,
+    "depth": 1.0,
+    "kinematic_viscosity": 0.05,
+    "slip": "no",
+    "tension": "free",
+    "open_boundaries": {"velocity": 1.0, "profile": "parabola", "ramp": 0.5},
+    "walls": [
+        PolygonWall(name="bed", points=[(-0.5, 0.0), (3.0, 0.0)]),
+        PolygonWall(name="lid", points=[(-0.5, 1.0), (3.0, 1.0)], one_sided=True),
+    ],
+    "fluid": [BoxRegion(lower=(0.0, 0.0), upper=(2.5, 1.0))],
+    "probes": [{"name": "middle", "position": (1.2, 0.0)}],
+}
+"""a channel with open ends, through which the fluid flows faster and faster"""
+PLANE = {"flume": FLUME, "channel": CHANNEL}
+"""cases in two dimensions"""
+
 
 def small_case(dimension: int, **parameters: Any) -> Custom:
     """Two moving bodies in 2-D, a shaken tank in 3-D."""
@@ -142,8 +166,8 @@ def die_after(delay: float) -> None:
 CHECKPOINT_INTERVAL = 0.02
 
 
-def run_or_resume(folder: Path, hooks: list[object]) -> None:
-    """Run the flume in ``folder``, or continue it there if it has a checkpoint."""
+def run_or_resume(name: str, folder: Path, hooks: list[object]) -> None:
+    """Run the case of that name in ``folder``, or continue it there if it has a checkpoint."""
     output = folder / "run.nc"
     options: dict[str, Any] = {
         "threads": 1,
@@ -154,18 +178,18 @@ def run_or_resume(folder: Path, hooks: list[object]) -> None:
     if (folder / "run.nc.restart").exists():
         resume(output, **options)
     else:
-        run(small_case(2), output=output, overwrite=True, **options)
+        run(Custom(**PLANE[name]), output=output, overwrite=True, **options)
 
 
 if __name__ == "__main__":
     for line in sys.stdin:
-        steps, delay, folder = line.strip().split(" ", 2)
+        name, steps, delay, folder = line.strip().split(" ", 3)
         child = os.fork()
         if child == 0:
             try:
                 if steps == "0":
                     die_after(float(delay))
-                run_or_resume(Path(folder), [Killer(int(steps), float(delay))])
+                run_or_resume(name, Path(folder), [Killer(int(steps), float(delay))])
                 os._exit(0)
             finally:
                 os._exit(1)

@@ -125,6 +125,14 @@ def test_the_same_bits_with_threads_and_after_a_restart() -> None:
                 assert np.array_equal(array, state[name]), name
 
 
+def test_pressure_and_volume_in_the_zones_are_those_of_the_density_to_the_bit() -> None:
+    """Else a sample that follows a restart, for which both are computed again, has other bits."""
+    simulation = run(Simulation(viscous(), threads=1), 0.12)
+    before = simulation.system.rows.copy()
+    simulation.system.update_pressure()
+    assert np.array_equal(simulation.system.rows, before)
+
+
 def test_more_particles_than_there_is_room_for_are_refused() -> None:
     simulation = Simulation(channel(), threads=1)
     assert simulation.system.channel is not None
