@@ -38,8 +38,8 @@ COARSE: dict[str, tuple[dict[str, Any], dict[str, float]]] = {
         {"drag": 0.05, "lift": 0.03, "pressure_difference": 0.5},
     ),
     "standing-wave": (
-        {"particle_spacing": 0.05, "kinematic_viscosity": 0.00626, "wall_treatment": "mirror-images"},
-        {"frequency": 0.025, "damping": 0.03},
+        {"particle_spacing": 1.0 / 30.0, "kinematic_viscosity": 0.00626},
+        {"frequency": 0.015, "damping": 0.05},
     ),
     "moving-square": ({"particle_spacing": 0.125, "until": 1.2}, {"start": 0.12, "drag": 0.4}),
     "taylor-green": ({"until": 0.5}, {"last_kinetic_energy": 0.03, "velocity": 0.05, "largest_hole": 0.2}),
