@@ -17,7 +17,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from sphframe.arrays import Array, IntArray
+from sphframe.arrays import Array, BoolArray, IntArray
 from sphframe.compiled import LANES, threaded, threaded_if_long
 from sphframe.neighbours.approach import relative_displacement
 from sphframe.neighbours.cells import Grid, cell_number, grid_around, row_number, sort_by_cell
@@ -75,40 +75,29 @@ class NeighbourLists:
         walls_move: bool = True,
         half_edge: float = 0.0,
     ) -> None:
-        self.half_edge = half_edge
-        self.sight = sight
-        self.walls_move = walls_move
+        self.half_edge, self.sight, self.walls_move = half_edge, sight, walls_move
         self.periods = Periods.none(dim) if periods is None else periods
         self._shifts = np.zeros((len(self.periods.shifts()), 3))
         self._shifts[:, :dim] = self.periods.shifts()
         self.shares = np.zeros((1, 1, LANES), np.uint8)
-        self.dim = dim
-        self.support = support
-        self.skin = skin
+        self.dim, self.support, self.skin = dim, support, skin
         self._narrow = np.full(3, np.inf)
         narrow = self.periods.length - 2.0 * (self.radius + half_edge)
         np.copyto(self._narrow[:dim], narrow, where=self.periods.repeats)
-        self.cluster = cluster
+        self.cluster, self.fluid_count, self.ghost_count = cluster, fluid_count, ghost_count
         self.width = 0.5 * self.radius if width is None else width
-        self.fluid_count = fluid_count
-        self.ghost_count = ghost_count
         clusters = -(-fluid_count // cluster)
         self.fluid = np.empty((clusters, 8), np.uint32)
-        self.fluid_counts = np.zeros(clusters, np.uint32)
-        self.ghost_counts = np.zeros(clusters, np.uint32)
-        self.points = np.empty((0, 8), np.uint32)
-        self.point_counts = np.zeros(0, np.uint32)
+        self.fluid_counts, self.ghost_counts = np.zeros(clusters, np.uint32), np.zeros(clusters, np.uint32)
+        self.points, self.point_counts = np.empty((0, 8), np.uint32), np.zeros(0, np.uint32)
         self.near = self.left = np.zeros(0, np.int64)
         self._is_near = np.ones(ghost_count, np.bool_)  # so that at first all others are left
         self._fluid_reference = np.zeros((fluid_count, dim))
         self._ghost_reference = self._point_reference = np.zeros((ghost_count, dim))
         self._grid = Grid(np.zeros(3), np.ones(3), np.ones(3, np.int64))
-        self._starts = np.zeros(2, np.int64)
-        self._cells = np.zeros(fluid_count, np.int64)
-        self._order = np.zeros(fluid_count, np.int64)
-        self._ghost_cells = np.zeros(ghost_count, np.int64)
-        self._ghost_order = np.zeros(ghost_count, np.int64)
-        self._ghost_starts = np.zeros(2, np.int64)
+        self._starts, self._ghost_starts = np.zeros(2, np.int64), np.zeros(2, np.int64)
+        self._cells, self._order = np.zeros(fluid_count, np.int64), np.zeros(fluid_count, np.int64)
+        self._ghost_cells, self._ghost_order = np.zeros(ghost_count, np.int64), np.zeros(ghost_count, np.int64)
         self._tallies = np.zeros((_PARTS, 1), np.int64)
         self._lower, self._upper = np.zeros(dim), np.zeros(dim)
         self._boxes = np.zeros((_PARTS, 1, 6))
@@ -116,7 +105,7 @@ class NeighbourLists:
 
     def resized(self, fluid_count: int) -> "NeighbourLists":
         """Return lists of the same kind for another number of fluid particles, not yet built."""
-        lists = NeighbourLists(
+        lists = type(self)(
             self.dim, fluid_count, self.ghost_count, self.support, self.skin, self.cluster, self.width, self.sight,
             self.periods, walls_move=self.walls_move, half_edge=self.half_edge,
         )  # fmt: skip
@@ -127,6 +116,11 @@ class NeighbourLists:
     def radius(self) -> float:
         """Search radius, m."""
         return self.support + self.skin
+
+    @property
+    def search(self) -> tuple[Grid, IntArray, IntArray, IntArray, IntArray, Array, Array]:
+        """What :func:`list_particles` searches, from ``grid`` to ``narrow``."""
+        return self._grid, self._starts, _NO_ORDER, self._ghost_starts, self._ghost_order, self._shifts, self._narrow
 
     def sort(self, rows: Array) -> IntArray:
         """Make the grid around the fluid ``rows`` (n, width) and return the order in which the rows must be put.
@@ -148,17 +142,30 @@ class NeighbourLists:
 
     def build(self, rows: Array, evaluation_points: Array) -> None:
         """Build the lists for ``rows`` (n + g, width), whose fluid part is in the order that :meth:`sort` returned."""
-        grid, n = self._grid, self.fluid_count
+        grid, n, ghosts = self._grid, self.fluid_count, rows[self.fluid_count :, : self.dim]
         sort_by_cell(rows[n:], self.dim, grid, self._ghost_cells, self._tallies, self._ghost_starts, self._ghost_order)
+        self.list_particles(rows)
+        near = self.find_near(self.periods.wrapped(evaluation_points))
+        self.near, self.left = np.flatnonzero(near), np.flatnonzero(self._is_near & ~near)
+        self._is_near = near
+        of_ghosts = self.sight is not None and np.array_equal(evaluation_points, ghosts)
+        self.list_points(evaluation_points[self.near], rows, self.near if of_ghosts else _NO_ORDER)
+        self._fluid_reference[:] = rows[:n, : self.dim]
+        self._ghost_reference, self._point_reference = ghosts, evaluation_points
+        if self.walls_move:
+            self._ghost_reference, self._point_reference = ghosts.copy(), evaluation_points.copy()
+
+    def list_particles(self, rows: Array) -> None:
+        """List the neighbours of the fluid ``rows``."""
+        n = self.fluid_count
         while True:
-            longest = _list_particles(
-                rows, n, self.cluster, self.dim, self.radius, self.half_edge, grid, self._starts, _NO_ORDER,
-                self._ghost_starts, self._ghost_order, self._shifts, self._narrow,
+            longest = list_particles(
+                rows, n, self.cluster, self.dim, self.radius, self.half_edge, *self.search,
                 self.fluid, self.fluid_counts, self.ghost_counts,
             )  # fmt: skip
             if longest < self.fluid.shape[1]:
                 break
-            self.fluid = np.empty((len(self.fluid), _capacity(longest)), np.uint32)
+            self.fluid = np.empty((len(self.fluid), room_for(longest)), np.uint32)
         if self.sight is not None:
             if self.shares.shape[:2] != self.fluid.shape:
                 self.shares = np.zeros((*self.fluid.shape, LANES), np.uint8)
@@ -166,29 +173,23 @@ class NeighbourLists:
                 rows, n, self.radius, self.fluid, self.fluid_counts, self.ghost_counts, self.shares, self.sight
             )  # fmt: skip
             self._sides_reference = self.sight.ends.copy()
-        of_ghosts = self.sight is not None and np.array_equal(evaluation_points, rows[n:, : self.dim])
-        self._list_points(rows, evaluation_points, of_ghosts=of_ghosts)
-        self._fluid_reference[:] = rows[:n, : self.dim]
-        self._ghost_reference, self._point_reference = rows[n:, : self.dim], evaluation_points
-        if self.walls_move:
-            self._ghost_reference, self._point_reference = self._ghost_reference.copy(), evaluation_points.copy()
 
-    def _list_points(self, rows: Array, points: Array, *, of_ghosts: bool) -> None:
-        """Find the ghosts near the fluid, and list the fluid near their evaluation ``points`` (g, dim)."""
+    def find_near(self, points: Array) -> BoolArray:
+        """Return which ghosts (g,), with evaluation ``points`` (g, dim), are listed or may have fluid near theirs."""
         near = np.zeros(self.ghost_count, np.bool_)
-        _mark_near(
-            self.periods.wrapped(points), self.fluid_count, self.dim, self.radius, self._grid, self._starts,
-            self._shifts, self.fluid, self.fluid_counts, self.ghost_counts, near,
+        mark_near(
+            points, self.fluid_count, self.dim, self.radius, self._grid, self._starts, self._shifts,
+            self.fluid, self.fluid_counts, self.ghost_counts, near,
         )  # fmt: skip
-        self.near, self.left = np.flatnonzero(near), np.flatnonzero(self._is_near & ~near)
-        self._is_near = near
-        count = len(self.near)
+        return near
+
+    def list_points(self, points: Array, rows: Array, ghosts: IntArray) -> None:
+        """List the fluid ``rows`` near ``points`` (k, dim), at which the ``ghosts`` (k,) are, if any is given."""
+        count = len(points)
         if count > len(self.points):
             self.points = np.empty((count + count // 8, self.points.shape[1]), np.uint32)
         self.point_counts = np.zeros(count, np.uint32)
-        self.points = self._around(
-            points[self.near], rows, self.points[:count], self.point_counts, self.near if of_ghosts else _NO_ORDER
-        )
+        self.points = self._around(points, rows, self.points[:count], self.point_counts, ghosts)
 
     def largest_motion(self, rows: Array) -> LargestMotion:
         """Return the largest speed of the fluid ``rows``, and their largest displacement since :meth:`build`."""
@@ -252,6 +253,10 @@ class NeighbourLists:
         self.build(rows, state["points"])
         self.left = self.left[:0]  # they are as they were filled before the state was saved
 
+    def of_points(self, places: IntArray) -> tuple[IntArray, NDArray[np.uint32], NDArray[np.uint32]]:
+        """Return ghosts (k,) at these ``places`` of ``near``, the lists (k, capacity) of their points, and lengths."""
+        return self.near[places], self.points[places], self.point_counts[places]
+
     def around(self, points: Array, rows: Array) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
         """Return lists (k, capacity) of the fluid near any ``points`` (k, dim) and their lengths (k,)."""
         counts = np.zeros(len(points), np.uint32)
@@ -259,19 +264,15 @@ class NeighbourLists:
         return self._around(points, rows, lists, counts), counts
 
     def _around(
-        self,
-        points: Array,
-        rows: Array,
-        lists: NDArray[np.uint32],
-        counts: NDArray[np.uint32],
+        self, points: Array, rows: Array, lists: NDArray[np.uint32], counts: NDArray[np.uint32],
         ghosts: IntArray = _NO_ORDER,
-    ) -> NDArray[np.uint32]:
+    ) -> NDArray[np.uint32]:  # fmt: skip
         """List the fluid near ``points`` in ``lists``, or in a longer array where that is too short.
 
         ``ghosts`` (k,) are those that are at these points.
         """
         while True:
-            longest = _list_points(
+            longest = list_points(
                 self.periods.wrapped(points), rows, self.dim, self.radius, self._grid, self._starts, _NO_ORDER,
                 self._shifts, lists, counts,
             )  # fmt: skip
@@ -279,10 +280,10 @@ class NeighbourLists:
                 if self.sight is not None:
                     keep_seen(points, rows, self.radius, lists, counts, ghosts, self.sight)
                 return lists
-            lists = np.empty((len(points), _capacity(longest)), np.uint32)
+            lists = np.empty((len(points), room_for(longest)), np.uint32)
 
 
-def _capacity(longest: int) -> int:
+def room_for(longest: int) -> int:
     """Room for a list of ``longest`` neighbours and some compression."""
     return -(-int(longest * 1.1 + 4) // 8) * 8
 
@@ -416,7 +417,7 @@ def _may_be_near(x, y, z, dim, radius, grid, starts):  # type: ignore[no-untyped
 
 
 @threaded_if_long
-def _mark_near(  # type: ignore[no-untyped-def]
+def mark_near(  # type: ignore[no-untyped-def]
     points, n, dim, radius, grid, starts, shifts, lists, counts, ghost_counts, near
 ):
     """Set ``near`` (g,) for ghosts in the ``lists``, and for those with ``points`` (g, dim) that may be near fluid."""
@@ -473,7 +474,7 @@ def _gather(  # type: ignore[no-untyped-def]
 
 
 @threaded
-def _list_particles(  # type: ignore[no-untyped-def]
+def list_particles(  # type: ignore[no-untyped-def]
     rows, n, cluster, dim, radius, half_edge, grid, starts, no_order, ghost_starts, ghost_order, shifts, narrow,
     lists, counts, ghost_counts,
 ):  # fmt: skip
@@ -514,7 +515,7 @@ def _list_particles(  # type: ignore[no-untyped-def]
 
 
 @threaded
-def _list_points(  # type: ignore[no-untyped-def]
+def list_points(  # type: ignore[no-untyped-def]
     points, rows, dim, radius, grid, starts, no_order, shifts, lists, counts
 ):
     """List the fluid neighbours of each point; returns the longest list, which must stay below the capacity."""

@@ -80,9 +80,9 @@ def surface_sums(  # type: ignore[no-untyped-def]
 
 def surface_reaction(  # type: ignore[no-untyped-def]
     rows, fluid_count, lists, fluid_counts, ghost_counts, seen_shares, ghost_walls, shares, centres, walls,
-    images, parameters, partial, loads,
+    images, parameters, partial,
 ):  # fmt: skip
-    """Write force and moment of each wall to ``loads``; all arguments as in :func:`wall_reaction`."""
+    """Write force and moment of each wall to ``partial``; all arguments as in :func:`wall_reaction`."""
     chunks = partial.shape[0]
     for chunk in numba.prange(chunks):
         partial[chunk] = 0.0
@@ -107,6 +107,3 @@ def surface_reaction(  # type: ignore[no-untyped-def]
                 ex, ey, _ = SURFACE(fluid, wall_side(rows, j, walls, g, COLUMNS), edge, parameters)
                 own = ghost_walls[g]
                 add_load(partial[chunk, own], rows[i], centres[own], -volume * ex, -volume * ey, 0.0)
-    loads[:] = 0.0
-    for chunk in range(chunks):
-        loads += partial[chunk]

@@ -49,21 +49,21 @@ def add_load(load, row, centre, fx, fy, fz):  # type: ignore[no-untyped-def]
 
 def wall_reaction(  # type: ignore[no-untyped-def]
     rows, fluid_count, lists, fluid_counts, ghost_counts, seen_shares, ghost_walls, shares, centres, walls,
-    images, parameters, partial, loads,
+    images, parameters, partial,
 ):  # fmt: skip
-    """Write force and moment of each wall to ``loads``: (walls, 3) in 2-D, per metre; (walls, 6) in 3-D; N and N m.
+    """Write force, N, and moment, N m, of each wall from chunks of the fluid to ``partial`` (chunks, walls, 3 or 6).
 
     ``shares``: :class:`~sphframe.boundary.corners.Shares` of second walls in the forces on ghosts in corners;
     ``seen_shares``: those in which the particles see the entries; ``images``: of the particles;
-    ``centres`` (walls, dim): the points to which moments refer, m; ``partial`` (chunks, walls, 3 or 6) is scratch.
+    ``centres`` (walls, dim): the points to which moments refer, m. In 2-D loads are per metre of width.
     """
     limit = parameters.support * parameters.support
     per_h2 = SUPPORT * SUPPORT / limit
     chunks = partial.shape[0]
     source = images.rows if IMAGES else rows
     for chunk in numba.prange(chunks):
-        for member in range(loads.shape[0]):  # arrays set as a whole would be loops for threads, compiled apart
-            for k in range(loads.shape[1]):
+        for member in range(partial.shape[1]):  # arrays set as a whole would be loops for threads, compiled apart
+            for k in range(partial.shape[2]):
                 partial[chunk, member, k] = 0.0
         for i in range(chunk * fluid_count // chunks, (chunk + 1) * fluid_count // chunks):
             c = i // LANES
@@ -116,8 +116,3 @@ def wall_reaction(  # type: ignore[no-untyped-def]
                             fx, fy = fx - ox, fy - oy
                             add_load(partial[chunk, other], rows[i], centres[other], ox, oy, 0.0)
                         add_load(partial[chunk, ghost_walls[g]], rows[i], centres[ghost_walls[g]], fx, fy, fz)
-    for member in range(loads.shape[0]):
-        for k in range(loads.shape[1]):
-            loads[member, k] = 0.0
-            for chunk in range(chunks):
-                loads[member, k] += partial[chunk, member, k]

@@ -205,15 +205,14 @@ def check_traits(
         when they are not finite, negative in spite of ``non_negative``, or do not add up to one in spite
         of ``partition_of_unity``.
     """
-    boundary, columns, near = system.boundary, system.columns, system.lists.near
-    stride = -(-len(near) // SAMPLED)
-    if interpolator is None or not len(near):
+    boundary, columns, count = system.boundary, system.columns, len(system.lists.near)
+    stride = -(-count // SAMPLED)
+    if interpolator is None or not count:
         return
-    places = np.arange(turn % stride, len(near), stride)
-    ghosts = near[places]
+    ghosts, lists, lengths = system.lists.of_points(np.arange(turn % stride, count, stride))
     points = boundary.periods.wrapped(boundary.points)[ghosts]
-    listed = np.arange(system.lists.points.shape[1]) < system.lists.point_counts[places][:, None]
-    of, around = np.nonzero(listed)[0], system.host_rows[system.lists.points[places][listed]]
+    listed = np.arange(lists.shape[1]) < lengths[:, None]
+    of, around = np.nonzero(listed)[0], system.host_rows[lists[listed]]
     offset = boundary.periods.nearest(around[:, columns.position] - points[of])
     inside = np.square(offset).sum(axis=1) < system.parameters.support**2
     of, count = of[inside], int(inside.sum())

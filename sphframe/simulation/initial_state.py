@@ -13,7 +13,6 @@ from sphframe.cases import Case, Scene
 from sphframe.compiled import LANES, specialise
 from sphframe.geometry import fill, panels_of
 from sphframe.interfaces import WallGeometry
-from sphframe.neighbours import NeighbourLists
 from sphframe.particles import Columns, Periods
 from sphframe.physics import LoopParameters, invert_pressure
 from sphframe.simulation.body_contact import FREQUENCY, BodyContacts
@@ -99,7 +98,7 @@ def initial_system(
         check_filling(start.filling, scene.walls, refuse=case.guards.filling == "stop")
     boundary, position, members = start.boundary, start.position, start.region
     half_edge = 0.0 if components.walls.surface is None else 0.5 * components.wall_treatment.row_spacing * spacing
-    lists = NeighbourLists(
+    lists = kind.lists_type(
         dim,
         len(position),
         boundary.count,

@@ -29,7 +29,7 @@ class RateLoops:
     Where the treatment leaves ghosts as they were assigned, one loop sums over fluid and ghosts. Else a second one
     sums over the ghosts. ``attracts``: whether a pair of fluid and ghost may attract; ``images``: whether images of
     the fluid take the place of ghosts. ``shifting`` adds its control of the tensile instability to the accelerations.
-    ``compile_loop`` makes the loops of the rates, as :func:`~sphframe.compiled.specialise` does.
+    ``compile_loop`` makes the loops, as :func:`~sphframe.compiled.specialise` does.
     """
 
     def __init__(
@@ -70,7 +70,7 @@ class RateLoops:
             self._fluid[continuity] = compile_loop(fluid_sums, bound)
             if not as_assigned and not (continuity and walls.force):
                 self._walls[continuity] = compile_loop(over_walls, bound)
-        self._reaction = specialise(reaction, bound)
+        self._reaction = compile_loop(reaction, bound)
 
     def __call__(
         self,
@@ -101,12 +101,11 @@ class RateLoops:
         shares: Shares,
         centres: Array,
         partial: Array,
-        loads: Array,
     ) -> None:
-        """Write the loads on ``walls``, see :func:`sphframe.physics.wall_force.wall_reaction`."""
+        """Write parts of the loads on ``walls``, see :func:`sphframe.physics.wall_force.wall_reaction`."""
         self._reaction(
             rows, lists.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares, walls,
-            shares, centres, boundary.arrays, boundary.images, parameters, partial, loads,
+            shares, centres, boundary.arrays, boundary.images, parameters, partial,
         )  # fmt: skip
 
 

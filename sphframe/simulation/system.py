@@ -52,10 +52,11 @@ class FluidSystem(PackedSystem):
         (walls, 3 or 6) force and moment of the fluid on each wall.
 
     A subclass computes elsewhere than on the processor: it holds ``rows``, ``rates`` and ``gradient`` there, and says
-    how loops over them are compiled (``specialise``) and where their scratch memory is (``make_scratch``).
+    how loops over them are compiled (``specialise``) and where their scratch memory and their lists are.
     """
 
     specialise, make_scratch = staticmethod(specialise), staticmethod(Scratch.of)
+    lists_type: type[NeighbourLists] = NeighbourLists
 
     def __init__(
         self,
@@ -72,25 +73,19 @@ class FluidSystem(PackedSystem):
         channel: OpenChannel | None = None,
     ) -> None:
         dim, several = boundary.dim, len(rows) >= LONG
-        self.channel = channel
-        self.boundary, self.contacts = boundary, contacts
+        self.channel, self.boundary, self.contacts = channel, boundary, contacts
         self._filling, self.loops, self.wall_states = filling, loops, wall_states
-        self.parameters = parameters
-        self.columns = Columns.of(dim)
+        self.parameters, self.columns = parameters, Columns.of(dim)
         self.bodies = BodyStates(boundary.bodies, dim)
-        walls = len(boundary.wall_body)
-        self.loads = np.zeros((walls, self.bodies.size))
-        self._partial_loads = np.zeros((64, walls, self.bodies.size))
+        self.loads = np.zeros((len(boundary.wall_body), self.bodies.size))
         self._driving = driving
         self._pressure = self.specialise(update_pressure, parts, parallel=several)
         self._put_back = self.specialise(put_back, {**parts, "MARKS": boundary.solid_contacts.needed}, parallel=several)
         count = lists.fluid_count
         self.rows, self.lists = rows, lists
-        self.ids = np.arange(count)
-        self.turns = np.zeros((count, dim), np.int64)
+        self.ids, self.turns = np.arange(count), np.zeros((count, dim), np.int64)
         self.rates, self._start, self._total = (np.zeros((count, self.columns.density + 1)) for _ in range(3))
-        self.gradient = np.zeros((count, dim))
-        self._spare = np.zeros((count, self.columns.width))
+        self.gradient, self._spare = np.zeros((count, dim)), np.zeros((count, self.columns.width))
         self._saved = (*_SAVED, "turns") if boundary.periods else _SAVED
         self._pressure_is_current = False
 
@@ -98,23 +93,28 @@ class FluidSystem(PackedSystem):
 
     def find_neighbours(self) -> None:
         """Let particles pass open ends, put all in order, in the box that repeats itself, and list their neighbours."""
-        periods = self.boundary.periods
         if self.channel is not None:
             self._exchange(self.channel)
-        if periods:
-            position = self.rows[: self.fluid_count, self.columns.position]
-            turns = periods.turns(position)
-            position -= turns * periods.length
-            self.turns += turns
-        order = self.lists.sort(self.rows)
-        self.turns = self.turns[order] if periods else self.turns
+        order = self._sort(self.rows)
         for array in (self.rows, self.rates, self.gradient, *(totals["fluid"] for totals in self.stored)):
             put_in_order(array, order, self._spare)
-        self.ids = self.ids[order]
         self.lists.build(self.rows, self.boundary.points)
         if self.channel is not None:
             self.channel.waiting = self.channel.waiting[order]
             self.channel.find(self.rows, self.lists, self.parameters.support)
+
+    def _sort(self, rows: Array) -> IntArray:
+        """Bring the fluid in ``rows`` into the box that repeats itself, sort ``ids`` and turns; return the order."""
+        periods = self.boundary.periods
+        if periods:
+            position = rows[: self.fluid_count, self.columns.position]
+            turns = periods.turns(position)
+            position -= turns * periods.length
+            self.turns += turns
+        order = self.lists.sort(rows)
+        self.ids = self.ids[order]
+        self.turns = self.turns[order] if periods else self.turns
+        return order
 
     def _exchange(self, channel: OpenChannel) -> None:
         """Let particles enter and leave through the open ends."""
@@ -216,13 +216,13 @@ class FluidSystem(PackedSystem):
     def update_loads(self) -> None:
         """Compute force and moment of the fluid on each wall."""
         shares = self.boundary.corner_shares(self.bodies.motions)
-        self.react(self.boundary.wall, shares, self.references(), self._partial_loads, self.loads)
+        self.loads = self.react(self.boundary.wall, shares, self.references())
 
-    def react(self, walls: IntArray, shares: Shares, centres: Array, partial: Array, loads: Array) -> None:
-        """Write the loads on the ``walls`` (g,) of the ghosts, see :class:`RateLoops`."""
-        self.loops.react(
-            self.host_rows, self.lists, self.boundary, self.parameters, walls, shares, centres, partial, loads
-        )
+    def react(self, walls: IntArray, shares: Shares, centres: Array) -> Array:
+        """Return the loads on the ``walls`` (g,) of the ghosts, a sum over chunks; see :class:`RateLoops`."""
+        partial = np.empty((64, len(centres), self.bodies.size))
+        self.loops.react(self.rows, *self.around, self.parameters, walls, shares, centres, partial)
+        return np.asarray(partial.sum(axis=0))
 
     def _body_loads(self) -> Array:
         """Force and moment (bodies, 3 or 6) of the fluid on each body, as last computed."""

@@ -80,10 +80,8 @@ class WallLoads:
         system, boundary = self._system, self._system.boundary
         nothing = np.zeros_like(boundary.position)
         shares = Shares(np.full(boundary.count, -1), nothing, nothing)
-        loads = np.zeros((2, system.bodies.size))  # the second is of all other ghosts
-        centres = system.references()[[wall, wall]]
-        system.react(np.where(ghosts, 0, 1), shares, centres, np.zeros((64, *loads.shape)), loads)
-        return np.asarray(loads[0])
+        centres = system.references()[[wall, wall]]  # the second is of all other ghosts
+        return np.asarray(system.react(np.where(ghosts, 0, 1), shares, centres)[0])
 
     def _reference(self, wall: int, default: Array) -> Array:
         """Return the present point, m, to which the moment on a wall refers."""

@@ -91,7 +91,8 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
     force = Swirl(5.0 * random.normal(size=dim), 5.0 * random.normal(size=(dim, dim)))
     drive(run, force)
     gravity = case.gravity_vector
-    rows = system.rows[:n]
+    state = run.state()
+    rows = state["rows"][:n]
     if moves:
         place, rate, _ = drift(0.0)
         rows[:, columns.position] = (rows[:, columns.position] - centre) @ turn(place).T + centre + place[:dim]
@@ -107,6 +108,7 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
         rows[order, columns.position], rows[order, columns.velocity], rows[order, columns.density],
         rows[order, columns.mass],
     )  # fmt: skip
+    run.restore(state)
     system.find_neighbours()
     system.evaluate(0.0)
     plain.start(0.0)

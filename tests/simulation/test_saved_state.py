@@ -11,7 +11,6 @@ from sphframe.cases import Custom
 from sphframe.geometry import BoxRegion, PolygonWall
 
 COMPUTED = (
-    "_partial_loads",
     "_start",
     "total",
     "_spare",

@@ -72,6 +72,13 @@ def _least(loop):  # type: ignore[no-untyped-def]
     return kernel
 
 
+def _largest(loop):  # type: ignore[no-untyped-def]
+    def kernel(out, arguments):  # type: ignore[no-untyped-def]
+        cuda.atomic.max(out, 0, loop(*arguments))
+
+    return kernel
+
+
 def _largest_two(loop):  # type: ignore[no-untyped-def]
     def kernel(out, arguments):  # type: ignore[no-untyped-def]
         first, second = loop(*arguments)
@@ -95,6 +102,8 @@ def _least_three_and_sum(loop):  # type: ignore[no-untyped-def]
 _RESULTS: dict[str, tuple[Callable[..., Any], Any]] = {
     "put_back": (_sum, np.zeros(1, np.int64)),
     "first_bad_ghost": (_least, np.full(1, _FAR)),
+    "list_particles": (_largest, np.zeros(1, np.int64)),
+    "list_points": (_largest, np.zeros(1, np.int64)),
     "largest_motion": (_largest_two, np.zeros(2)),
     "check_fluid": (_least_three_and_sum, np.array([_FAR, _FAR, _FAR, 0])),
 }

@@ -22,11 +22,14 @@ from sphframe.devices import (
     largest_motion,
 )
 from sphframe_cuda.arrays import fetched, put, put_into, room
+from sphframe_cuda.lists import DeviceLists
 from sphframe_cuda.loops import SIMULATED, Loop
-from sphframe_cuda.templates import copy_lists, give_rows, list_each, put_ghosts, take_rows
+from sphframe_cuda.templates import copy_rows, give_rows, put_rows, take_rows
 
 _GHOSTS_AT_ONCE = 4 if SIMULATED else 32_768
 """ghosts that are filled at the same time, each with scratch memory of its own"""
+_CHUNKS = 8 if SIMULATED else 8_192
+"""parts of the fluid whose loads on walls are summed at the same time"""
 _WALLS = ("points", "lifts", "foot", "normal", "reflection", "velocity", "position")
 """arrays of the ghosts that change where walls move; ``driving`` is in the arrays of the loops"""
 
@@ -43,8 +46,8 @@ def _scratch(capacity: int, dim: int) -> Scratch:
 class CudaSystem(FluidSystem):
     """The fluid on a CUDA device, advanced by the kernels that Numba makes of sphframe's loop templates.
 
-    The processor finds the neighbours, and computes bodies, loads and output; rows travel there when one of these needs
-    them. A list of the processor belongs to eight particles; the device makes one for each particle from it.
+    The processor sorts the particles into cells, and computes bodies and output; rows, or positions only, travel there
+    when one of these needs them.
 
     Raises
     ------
@@ -53,20 +56,18 @@ class CudaSystem(FluidSystem):
         of their own, open ends, shifting and sources.
     """
 
-    specialise, make_scratch = Loop, staticmethod(_scratch)
+    specialise, make_scratch, lists_type = Loop, staticmethod(_scratch), DeviceLists
     hold_state, advance_state, add_columns = Loop(hold_state), Loop(advance_state), Loop(add_columns)
     check_rows, check_ghosts = Loop(check_fluid), Loop(first_bad_ghost)
+    _take_rows, _give_rows, _put_rows, _copy_rows = Loop(take_rows), Loop(give_rows), Loop(put_rows), Loop(copy_rows)
+    _largest_motion = Loop(largest_motion)
 
     def __init__(self, *arguments: Any) -> None:
         super().__init__(*arguments)
         self._refuse()
         boundary = self.boundary
-        parts = {"DIM": boundary.dim, "PERIODIC": bool(boundary.periods), "CLUSTER": self.lists.cluster}
-        self._list_each, self._copy, self._put_ghosts = Loop(list_each, parts), Loop(copy_lists), Loop(put_ghosts)
-        self._take_rows, self._give_rows = Loop(take_rows), Loop(give_rows)
-        self._largest_motion = Loop(largest_motion)
         self._corners: dict[bytes, Any] = {}
-        self._near: Any = None
+        self._are_on_host = False
         self._ghost_rows = self.rows[self.fluid_count :].copy()
         self._walls = SimpleNamespace(
             **{name: put(getattr(boundary, name)) for name in _WALLS},
@@ -110,6 +111,7 @@ class CudaSystem(FluidSystem):
         """Bring rows, rates and gradient to the device."""
         self.rows, self.rates, self.gradient = put(self.rows), put(self.rates), put(self.gradient)
         self._start, self._total = room(self.rates.shape), room(self.rates.shape)
+        self._spare, self._places = room((self.fluid_count, self.columns.width)), room(self.gradient.shape)
         self._host_rows, self._fetched_after = np.zeros(0), -1
 
     def _renew_walls(self) -> None:
@@ -121,14 +123,19 @@ class CudaSystem(FluidSystem):
     @contextmanager
     def _on_host(self, *, changed: bool) -> Iterator[None]:
         """Hold rows, rates and gradient on the processor meanwhile, where they may be ``changed``."""
-        held = self.rows, self.rates, self.gradient, self._start, self._total
+        if self._are_on_host:
+            yield
+            return
+        held = self.rows, self.rates, self.gradient, self._start, self._total, self._spare
         self.rows, self.rates, self.gradient = map(fetched, held[:3])
-        self._start = self._total = np.zeros_like(self.rates)
+        self._start = self._total = self._spare = np.zeros_like(self.rates)
+        self._are_on_host = True
         yield
+        self._are_on_host = False
         if changed:
             self._place()
         else:
-            self.rows, self.rates, self.gradient, self._start, self._total = held
+            self.rows, self.rates, self.gradient, self._start, self._total, self._spare = held
 
     @property
     def host_rows(self) -> Any:
@@ -152,48 +159,42 @@ class CudaSystem(FluidSystem):
     @property
     def around(self) -> tuple[Any, Any]:
         """Lists and walls on the device."""
-        return self._near, self._walls
+        return self.lists, self._walls
 
     # neighbours
 
-    def find_neighbours(self) -> None:
-        """Find the neighbours on the processor, and bring their lists to the device."""
-        with self._on_host(changed=True):
-            super().find_neighbours()
-        self._place_lists()
+    def _positions(self) -> Any:
+        """Return the positions (n, dim) of the fluid, m, on the processor."""
+        self._copy_rows(self.rows, self._places)
+        return fetched(self._places)
 
-    def _place_lists(self) -> None:
-        """Make a list for each particle, of what is within the search radius of it where the lists were built."""
-        lists, n = self.lists, self.fluid_count
-        built = lists.state()
-        position, capacity = put(np.vstack([built["fluid"], built["ghosts"]])), lists.fluid.shape[1]
-        listed = put(lists.fluid), put(lists.fluid_counts), put(lists.ghost_counts)
-        own = room((n, capacity), np.uint32, order="F")
-        own_counts = room((n,), np.uint32), room((n,), np.uint32)
-        reach = lists.radius**2, (lists.radius + lists.half_edge) ** 2
-        self._list_each(position, n, *listed, *reach, self.parameters, own, *own_counts)
-        count = len(lists.near)
-        points, point_counts = room((count, lists.points.shape[1]), np.uint32, order="F"), put(lists.point_counts)
-        self._copy(put(lists.points[:count]), point_counts, points)
-        self._near = SimpleNamespace(
-            fluid=own, fluid_counts=own_counts[0], ghost_counts=own_counts[1], shares=put(lists.shares),
-            points=points, point_counts=point_counts, near=put(lists.near), fluid_count=n,
-            left=put(lists.left) if len(lists.left) else lists.left,
-        )  # fmt: skip
-        self._reference = put(built["fluid"])
+    def _present_positions(self, fluid: Any) -> Any:
+        """Return the positions (n + g, dim) of ``fluid`` (n, dim) and ghosts, m, on the processor."""
+        return np.vstack([fluid, self._ghost_rows[:, self.columns.position]])
+
+    def find_neighbours(self) -> None:
+        """Sort the particles into cells on the processor, put them in order and list their neighbours on the device."""
+        position = self._positions()
+        order = self._sort(position)
+        chosen = put(order)
+        for array, spare in ((self.rows, self._spare), (self.rates, self._total), (self.gradient, self._places)):
+            self._take_rows(array, chosen, spare)
+            self._put_rows(array, 0, spare)
+        self.lists.build(self._present_positions(position[order]), self.boundary.points)
+        if self.boundary.periods:
+            self._put_rows(self.rows, 0, self.lists.position)
 
     def largest_motion(self) -> LargestMotion:
         """Return the largest speed of the fluid and its largest displacement since the last neighbour search."""
-        return LargestMotion(*self._largest_motion(self.rows, self._reference, self.columns.dim))
+        return LargestMotion(*self._largest_motion(self.rows, self.lists.position, self.columns.dim))
 
     def neighbours_remain_valid(self, motion: LargestMotion, interval: float) -> bool:
-        """Return whether the lists stay complete; rows are fetched only where the largest motion does not tell."""
+        """Return whether the lists stay complete; positions are fetched only where the largest motion does not tell."""
         ahead = motion.displacement + motion.speed * interval
-        if not self.boundary.bodies and 2.0 * ahead <= self.lists.skin:
-            return True
-        return self.lists.remain_valid(
-            self.host_rows, self.boundary.points, motion, wall_speed=self.boundary.speed, interval=interval
-        )
+        if not self.boundary.bodies and (2.0 * ahead <= self.lists.skin or ahead > self.lists.skin):
+            return ahead <= self.lists.skin
+        rows, boundary = self._present_positions(self._positions()), self.boundary
+        return self.lists.remain_valid(rows, boundary.points, motion, wall_speed=boundary.speed, interval=interval)
 
     def keep(self, kept: Any) -> None:
         """Continue with the fluid particles that are ``kept``."""
@@ -208,11 +209,11 @@ class CudaSystem(FluidSystem):
         self.set_body_force(time)
         if self._driving.move(self.boundary, self.bodies.motions, self._ghost_rows, time):
             self._renew_walls()
-            self._put_ghosts(self.rows, self.fluid_count, put(self._ghost_rows[:, self.columns.position]))
+            self._put_rows(self.rows, self.fluid_count, put(self._ghost_rows[:, self.columns.position]))
 
     def put_back(self) -> int:
         """Put particles that have come behind a wall back on it; return how many there were."""
-        near, walls, solids = self._near, self._walls, self.boundary.solid_contacts
+        near, walls, solids = self.lists, self._walls, self.boundary.solid_contacts
         marked = put(np.zeros(self.fluid_count if solids.needed else 1, np.bool_))
         count = self._put_back(
             self.rows, self.fluid_count, near.fluid, near.fluid_counts, near.ghost_counts, near.shares, walls.passable,
@@ -227,6 +228,15 @@ class CudaSystem(FluidSystem):
                 self._give_rows(self.rows, chosen, put(rows))
             count += moved
         return int(count)
+
+    def react(self, walls: Any, shares: Any, centres: Any) -> Any:
+        """Return the loads on the ``walls`` (g,) of the ghosts."""
+        partial, fetched_before = room((_CHUNKS, len(centres), self.bodies.size)), self._fetched_after == Loop.launches
+        given = put(walls), type(shares)(*map(put, shares)), put(centres), partial
+        self.loops.react(self.rows, *self.around, self.parameters, *given)
+        if fetched_before:  # this loop has changed no rows
+            self._fetched_after = Loop.launches
+        return fetched(partial).sum(axis=0)
 
     # checks
 
@@ -252,4 +262,3 @@ class CudaSystem(FluidSystem):
             super().restore(state)
         put_into(self.boundary.statuses, self._walls.statuses)
         self._renew_walls()
-        self._place_lists()
