@@ -21,6 +21,8 @@ COLLAPSED = 0.02
 """lowest adaptive time step over that at rest; below it, at speeds above 50 c0, the time step has collapsed"""
 FASTEST_BODY = 0.5
 """highest speed of a body over the sound speed: above it, the water is no longer weakly compressible"""
+GATHERED = 4
+"""number of particles within half a spacing of one of them, the sound of which needs a shorter time step"""
 SAMPLED = 1000
 """number of ghosts whose weights are checked at each frame"""
 SLOW = 0.1
@@ -84,7 +86,7 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array, tim
         stop(
             out_of_range,
             f"has a density outside the band {lowest:g} to {highest:g} kg/m^3",
-            "walls that overlap or squeeze the fluid" if _near_wall(system, out_of_range) else "two particles that met",
+            _cause_of_density(system, out_of_range),
             '; to go on and count such particles, set guards.density = "count", or widen guards.density_band',
         )
     if guards.fallbacks == "stop":
@@ -111,11 +113,19 @@ def _likely(system: FluidSystem, case: Case, time_step: float, cause: str) -> st
     return cause
 
 
-def _near_wall(system: FluidSystem, index: int) -> bool:
-    """Whether a wall acts on a particle."""
-    support, place = system.parameters.support, system.host_rows[index, system.columns.position]
+def _cause_of_density(system: FluidSystem, index: int) -> str:
+    """Return what has probably compressed or torn a particle: others that gathered, a wall, or another one."""
+    from scipy.spatial import cKDTree
+
+    support, position = system.parameters.support, system.host_rows[: system.fluid_count, system.columns.position]
+    offset = system.boundary.periods.nearest(position - position[index])
+    near = offset[np.linalg.norm(offset, axis=1) < support]
+    gathered = cKDTree(near).query_ball_point(near, 0.5 * system.parameters.spacing, return_length=True).max()
+    if gathered >= GATHERED:
+        return f"{gathered} particles in one place, for which the time step is too long (set a smaller courant_number)"
     ghosts, _ = system.boundary.periods.with_copies(system.boundary.position, support)
-    return bool(np.any(np.linalg.norm(ghosts - place, axis=1) < support))
+    near_wall = np.any(np.linalg.norm(ghosts - position[index], axis=1) < support)
+    return "walls that overlap or squeeze the fluid" if near_wall else "two particles that met"
 
 
 def check_bodies(system: FluidSystem, case: Case, lower: Array, upper: Array, time_step: float = 0.0) -> None:

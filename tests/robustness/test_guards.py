@@ -26,6 +26,15 @@ def put(column: str, value: float) -> Callable[[Any], None]:
     return change
 
 
+def gather(simulation: Any) -> None:
+    """Put five particles in one place, and compress another one beside them."""
+    rows, columns = simulation.system.rows, simulation.columns
+    middle = rows[: simulation.fluid_count, columns.position].mean(axis=0)
+    beside = np.argsort(np.linalg.norm(rows[: simulation.fluid_count, columns.position] - middle, axis=1))[:6]
+    rows[beside[:5], columns.position] = middle
+    rows[beside[5], columns.density] = 3000.0
+
+
 def spoil_ghosts(simulation: Any) -> None:
     rows, pressure = simulation.system.rows, simulation.columns.pressure
     near = simulation.system.lists.near
@@ -60,6 +69,7 @@ STOPS: list[tuple[str, Callable[[Any], None], dict[str, Any], str]] = [
         {},
         r"outside the band 500 to 1500 kg/m\^3 .*causes: (walls|two).*guards.density = \"count\"",
     ),
+    ("gathered", gather, {}, r"causes: [5-9] particles in one place, for which .*courant_number.*guards.density = "),
     ("narrow band", put("density", 1100.0), {"guards": {"density_band": (0.95, 1.05)}}, r"band 950 to 1050 kg/m\^3"),
     (
         "counted",
