@@ -63,6 +63,7 @@ class SolidWalls(WallGroup):
     def _fill(self, spacing: float, layers: int) -> tuple[Array, Array]:
         if (spacing, layers) not in self._filled:
             from scipy.spatial import cKDTree
+            from trimesh import boolean, creation
 
             domain, depth = self.domain, layers * spacing
             panels = self.panels(spacing)
@@ -71,7 +72,9 @@ class SolidWalls(WallGroup):
             lattice = Lattice.over(lower, upper, spacing, straight_faces(walls))
             reach = depth + 1.5 * spacing
             near = np.isfinite(cKDTree(panels.centre).query(lattice.centre, distance_upper_bound=reach)[0])
-            position, volume = fill_mesh(domain.solid, lattice, near=near, least=0.25, rings=1, sweeps=4)
+            ends = lattice.centre[[0, -1]] + 0.5 * lattice.size[[0, -1]] * [[-1.0], [1.0]]
+            whole = float(boolean.intersection([domain.solid, creation.box(bounds=ends)]).volume)
+            position, volume = fill_mesh(domain.solid, lattice, whole, near=near, least=0.25, rings=1, sweeps=4)
             feet = domain.feet(position)
             kept = (domain.wall[feet.triangle] != OPEN) & (feet.depth < depth)
             self._filled[spacing, layers] = position[kept], volume[kept]

@@ -79,9 +79,8 @@ class NeighbourLists:
         self.periods = Periods.none(dim) if periods is None else periods
         self._shifts = np.zeros((len(self.periods.shifts()), 3))
         self._shifts[:, :dim] = self.periods.shifts()
-        self.shares = np.zeros((1, 1, LANES), np.uint8)
         self.dim, self.support, self.skin = dim, support, skin
-        self._narrow = np.full(3, np.inf)
+        self.shares, self._narrow = np.zeros((1, 1, LANES), np.uint8), np.full(3, np.inf)
         narrow = self.periods.length - 2.0 * (self.radius + half_edge)
         np.copyto(self._narrow[:dim], narrow, where=self.periods.repeats)
         self.cluster, self.fluid_count, self.ghost_count = cluster, fluid_count, ghost_count
@@ -92,16 +91,14 @@ class NeighbourLists:
         self.points, self.point_counts = np.empty((0, 8), np.uint32), np.zeros(0, np.uint32)
         self.near = self.left = np.zeros(0, np.int64)
         self._is_near = np.ones(ghost_count, np.bool_)  # so that at first all others are left
-        self._fluid_reference = np.zeros((fluid_count, dim))
+        self._fluid_reference, self._sides_reference = np.zeros((fluid_count, dim)), np.zeros((0, 4))
         self._ghost_reference = self._point_reference = np.zeros((ghost_count, dim))
         self._grid = Grid(np.zeros(3), np.ones(3), np.ones(3, np.int64))
         self._starts, self._ghost_starts = np.zeros(2, np.int64), np.zeros(2, np.int64)
         self._cells, self._order = np.zeros(fluid_count, np.int64), np.zeros(fluid_count, np.int64)
         self._ghost_cells, self._ghost_order = np.zeros(ghost_count, np.int64), np.zeros(ghost_count, np.int64)
-        self._tallies = np.zeros((_PARTS, 1), np.int64)
+        self._tallies, self._boxes = np.zeros((_PARTS, 1), np.int64), np.zeros((_PARTS, 1, 6))
         self._lower, self._upper = np.zeros(dim), np.zeros(dim)
-        self._boxes = np.zeros((_PARTS, 1, 6))
-        self._sides_reference = np.zeros((0, 4))
 
     def resized(self, fluid_count: int) -> "NeighbourLists":
         """Return lists of the same kind for another number of fluid particles, not yet built."""
