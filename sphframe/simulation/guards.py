@@ -86,7 +86,7 @@ def check_state(system: FluidSystem, case: Case, lower: Array, upper: Array, tim
         stop(
             out_of_range,
             f"has a density outside the band {lowest:g} to {highest:g} kg/m^3",
-            _cause_of_density(system, out_of_range),
+            _cause_of_density(system, case, out_of_range),
             '; to go on and count such particles, set guards.density = "count", or widen guards.density_band',
         )
     if guards.fallbacks == "stop":
@@ -113,7 +113,7 @@ def _likely(system: FluidSystem, case: Case, time_step: float, cause: str) -> st
     return cause
 
 
-def _cause_of_density(system: FluidSystem, index: int) -> str:
+def _cause_of_density(system: FluidSystem, case: Case, index: int) -> str:
     """Return what has probably compressed or torn a particle: others that gathered, a wall, or another one."""
     from scipy.spatial import cKDTree
 
@@ -122,7 +122,8 @@ def _cause_of_density(system: FluidSystem, index: int) -> str:
     near = offset[np.linalg.norm(offset, axis=1) < support]
     gathered = cKDTree(near).query_ball_point(near, 0.5 * system.parameters.spacing, return_length=True).max()
     if gathered >= GATHERED:
-        return f"{gathered} particles in one place, for which the time step is too long (set a smaller courant_number)"
+        remedy = "set" if case.tension == "none" else 'set tension = "none", if air can reach the walls, or'
+        return f"{gathered} particles in one place, for which the step is too long ({remedy} a smaller courant_number)"
     ghosts, _ = system.boundary.periods.with_copies(system.boundary.position, support)
     near_wall = np.any(np.linalg.norm(ghosts - position[index], axis=1) < support)
     return "walls that overlap or squeeze the fluid" if near_wall else "two particles that met"

@@ -81,8 +81,7 @@ class FluidSystem(PackedSystem):
         self._driving = driving
         self._pressure = self.specialise(update_pressure, parts, parallel=several)
         self._put_back = self.specialise(put_back, {**parts, "MARKS": boundary.solid_contacts.needed}, parallel=several)
-        count = lists.fluid_count
-        self.rows, self.lists = rows, lists
+        self.rows, self.lists, count = rows, lists, lists.fluid_count
         self.ids, self.turns = np.arange(count), np.zeros((count, dim), np.int64)
         self.rates, self._start, self._total = (np.zeros((count, self.columns.density + 1)) for _ in range(3))
         self.gradient, self._spare = np.zeros((count, dim)), np.zeros((count, self.columns.width))

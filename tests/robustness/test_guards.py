@@ -69,7 +69,12 @@ STOPS: list[tuple[str, Callable[[Any], None], dict[str, Any], str]] = [
         {},
         r"outside the band 500 to 1500 kg/m\^3 .*causes: (walls|two).*guards.density = \"count\"",
     ),
-    ("gathered", gather, {}, r"causes: [5-9] particles in one place, for which .*courant_number.*guards.density = "),
+    (
+        "gathered",
+        gather,
+        {},
+        r"causes: [5-9] particles in one place, .*tension = \"none\".* courant_number.*guards.density = ",
+    ),
     ("narrow band", put("density", 1100.0), {"guards": {"density_band": (0.95, 1.05)}}, r"band 950 to 1050 kg/m\^3"),
     (
         "counted",

@@ -63,6 +63,7 @@ class DamBreak3D(Case):
         Case, "particle_spacing", Derived("water_height / 14", lambda case: case.water_height / 14.0)
     )
     until: float = with_default(Case, "until", 2.0)
+    tension: Literal["none", "bounded", "free"] = with_default(Case, "tension", "none")
     guards: Guards = with_default(Case, "guards", Guards(domain="remove"))
     frame_interval: float = with_default(Case, "frame_interval", 0.05)
     probe_interval: float = with_default(Case, "probe_interval", 0.005)

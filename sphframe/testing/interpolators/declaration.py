@@ -14,6 +14,8 @@ WELL_PLACED = 2.0
 """largest sum of |weights| of a quadratic fit for which a method must return OK"""
 AROUND = 1.2
 """the same of a linear fit, for few neighbours: the particles are on all sides of the point"""
+NEAR = 0.75
+"""distance over the support up to which a neighbour counts for a linear fit: the kernel hardly counts others"""
 
 
 def check_traits(method: BoundaryInterpolator, dim: int) -> None:
@@ -94,8 +96,9 @@ def check_fewest_points(method: BoundaryInterpolator, dim: int) -> None:
         if outcome.status == OK or len(cloud) < fewest:
             return None
         quadratic = len(cloud) >= 3 * fewest and condition(cloud, 2) < 1e5 and magnification(cloud, 2) < WELL_PLACED
-        several = degree <= 1 and len(cloud) >= 2 * fewest  # with fewer, the weights of the kernel decide
-        around = several and condition(cloud, 1) < 1e3 and magnification(cloud, 1) < AROUND
+        near = cloud.members(np.flatnonzero(cloud.distances < NEAR * cloud.support))
+        several = degree <= 1 and len(near) >= 2 * fewest  # with fewer, the weights of the kernel decide
+        around = several and condition(near, 1) < 1e3 and magnification(near, 1) < AROUND
         if (quadratic or around) and not (convex and _beside(cloud)):
             return f"the status is {status_name(outcome)} with {len(cloud)} well-placed neighbours"
         return None
