@@ -72,8 +72,8 @@ class SolidWalls(WallGroup):
             lattice = Lattice.over(lower, upper, spacing, straight_faces(walls))
             reach = depth + 1.5 * spacing
             near = np.isfinite(cKDTree(panels.centre).query(lattice.centre, distance_upper_bound=reach)[0])
-            ends = lattice.centre[[0, -1]] + 0.5 * lattice.size[[0, -1]] * [[-1.0], [1.0]]
-            whole = float(boolean.intersection([domain.solid, creation.box(bounds=ends)]).volume)
+            low, high = np.reshape(lattice.corners(np.array([0, -1])), (2, 3, 2))
+            whole = float(boolean.intersection([domain.solid, creation.box(bounds=[low[:, 0], high[:, 1]])]).volume)
             position, volume = fill_mesh(domain.solid, lattice, whole, near=near, least=0.25, rings=1, sweeps=4)
             feet = domain.feet(position)
             kept = (domain.wall[feet.triangle] != OPEN) & (feet.depth < depth)

@@ -22,7 +22,7 @@ COLLAPSED = 0.02
 FASTEST_BODY = 0.5
 """highest speed of a body over the sound speed: above it, the water is no longer weakly compressible"""
 GATHERED = 4
-"""number of particles within half a spacing of one of them, the sound of which needs a shorter time step"""
+"""number of particles within half a spacing of one of them from which the stable time step is shorter"""
 SAMPLED = 1000
 """number of ghosts whose weights are checked at each frame"""
 SLOW = 0.1

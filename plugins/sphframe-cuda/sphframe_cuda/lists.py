@@ -53,9 +53,10 @@ class DeviceLists(NeighbourLists):
 
     def find_near(self, points: Any) -> Any:
         """Return, on the processor, which ghosts (g,) are listed or may have fluid near their ``points`` (g, dim)."""
-        near, shifts = put(np.zeros(self.ghost_count, np.bool_)), self._search[5]
+        near = put(np.zeros(self.ghost_count, np.bool_))
+        grid, starts, _, _, _, shifts, _ = self._search
         self._mark_near(
-            put(points), self.fluid_count, self.dim, self.radius, *self._search[:2], shifts,
+            put(points), self.fluid_count, self.dim, self.radius, grid, starts, shifts,
             self.fluid, self.fluid_counts, self.ghost_counts, near,
         )  # fmt: skip
         return fetched(near)
