@@ -161,5 +161,5 @@ class Free(RigidBody):
 
 
 def _tensor(inertia: float | Sequence[Any] | None) -> Array:
-    given = np.array(0.0 if inertia is None else inertia, dtype=np.float64)
+    given = np.array(inertia, dtype=np.float64)
     return np.diag(np.atleast_1d(given)) if given.ndim < 2 else given

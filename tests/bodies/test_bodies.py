@@ -5,6 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from sphframe.bodies import Free, SpringMass
+from sphframe.bodies.body_forces import ForceSeries
 from sphframe.errors import InputError
 from sphframe.interfaces import RigidBody
 from sphframe.registry import create
@@ -70,6 +71,18 @@ def test_spring_wall_swings_with_its_period_about_its_load() -> None:
     t, x = swing(wall, 8.0, 0.95 * 2.0 * math.pi * math.sqrt(2.0 / 50.0), 1e-4)
     omega = math.sqrt(50.0 / 2.0)
     assert x == pytest.approx(0.1 * (1.0 - np.cos(omega * t)), abs=1e-6)
+
+
+def test_a_wall_without_a_spring_is_accelerated_evenly() -> None:
+    t, x = swing(SpringMass(mass=2.0, stiffness=0.0), 3.0, 0.5, 0.01)
+    assert x == pytest.approx(0.5 * 1.5 * t**2)
+
+
+def test_a_series_of_accelerations_is_linear_within_its_table_and_nothing_outside() -> None:
+    force = ForceSeries(table=((1.0, 2.0, -4.0), (3.0, 6.0, 4.0)))
+    times = np.array([0.0, 0.99, 1.0, 1.5, 2.0, 3.0, 3.01, 9.0])
+    expected = [[2.0 + 2.0 * (t - 1.0), -4.0 + 4.0 * (t - 1.0)] if 1.0 <= t <= 3.0 else [0.0, 0.0] for t in times]
+    assert [force.acceleration(t).tolist() for t in times] == expected
 
 
 def test_spring_wall_stands_still_below_its_threshold_and_stops_dead_at_its_stop() -> None:

@@ -12,6 +12,7 @@ import pytest
 from sphframe import InputError, hookimpl, load_case, resume, run
 from sphframe.bodies import DisplacementSeries
 from sphframe.cases import written
+from sphframe.geometry import to_world
 from sphframe.interfaces import RigidBody
 from sphframe.testing import checks_of
 
@@ -95,6 +96,30 @@ def test_columns_and_units_are_those_that_the_file_or_the_case_declares() -> Non
         assert end == pytest.approx([0.01, 0.01, np.pi / 2])
     assert at(series("0,1\n1,3\n"), 1.0)[0] == 2.0
     assert at(series("0;1;1\n1;3;7\n"), 1.0, 1)[0] == 6.0
+
+
+@pytest.mark.parametrize("column", ["x", "y", "z", "rx", "ry", "rz"])
+def test_each_column_is_its_own_coordinate_in_space(column: str) -> None:
+    body = series("0 0\n1 2\n", columns={"time": "s", column: "rad" if column[0] == "r" else "m"})
+    moved = body.motion(1.0, *np.zeros((3, 6))).position
+    point = to_world(np.array([[3.0, 5.0, 7.0]]), moved, np.zeros(3))[0]
+    axis = "xyz".index(column[-1])
+    expected = np.array([3.0, 5.0, 7.0])
+    if column[0] == "r":
+        i, j = (axis + 1) % 3, (axis + 2) % 3
+        turned = (expected[i] + 1j * expected[j]) * np.exp(2j)
+        expected[[i, j]] = turned.real, turned.imag
+    else:
+        expected[axis] += 2.0
+    assert point == pytest.approx(expected)
+
+
+def test_a_series_turns_about_the_origin_by_default() -> None:
+    body = series("# time (s), angle (deg)\n0 0\n1 90\n")
+    turned = to_world(
+        np.array([[3.0, 5.0]]), body.motion(1.0, NOTHING, NOTHING, NOTHING).position, np.array(body.centre)
+    )
+    assert turned[0] == pytest.approx([-5.0, 3.0])
 
 
 @pytest.mark.parametrize(

@@ -42,6 +42,8 @@ def test_every_way_leads_to_the_same(path: Path, tmp_path: Path) -> None:
     count = open_dataset(path).sizes["probe_time"]
     check(open_dataset(path), count)
     check(xr.open_dataset(path, engine="sphframe"), count)
+    fewer = xr.open_dataset(path, engine="sphframe", drop_variables=["density", "absent"])
+    assert open_dataset(path).variables.keys() - fewer.variables.keys() == {"density"}
     with xr.open_dataset(path) as plain:
         assert plain.sph.summary()["steps"] == count - 1
         if count == 31:

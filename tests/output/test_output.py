@@ -1,12 +1,14 @@
 """Output: the file holds the results, stays readable however the run ends, and is replaced only on request."""
 
+import gc
+import importlib.metadata
 import json
 import os
 import random
 import subprocess
 import sys
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import netCDF4
 import numpy as np
@@ -14,8 +16,11 @@ import psutil
 import pytest
 import xarray as xr
 
-from sphframe.errors import InputError, OutputError
+from sphframe.errors import InputError, OutputError, SimulationError
 from sphframe.output import NetCDFWriter, open_dataset
+from sphframe.output.contents import planned_size
+from sphframe.output.lock import lock_file
+from sphframe.output.run_file import RunFile
 from sphframe.output.schema import VARIABLES
 
 
@@ -71,7 +76,8 @@ def test_attributes_repeat_the_run(written: Path, fake: ModuleType) -> None:
     assert fake.FakeCase(**json.loads(attributes["case_parameters"])) == fake.FakeCase()
     assert attributes["case_name"] == "sphframe_fake_simulation:FakeCase", "an unregistered case is named by its class"
     assert json.loads(attributes["components"])["kernel"] == {"name": "gaussian"}
-    assert "sphframe" in json.loads(attributes["distributions"])
+    versions = {name: importlib.metadata.version(name) for name in ("sphframe", "sphframe-shepard")}
+    assert json.loads(attributes["distributions"]) == versions, "of its components alone"
 
 
 def test_plain_xarray_reads_it(written: Path) -> None:
@@ -94,6 +100,46 @@ def test_readable_while_it_is_written(tmp_path: Path, fake: ModuleType) -> None:
     writer.sphframe_run_failed(simulation=simulation, error=ValueError("too wet"))
     assert open_dataset(path).attrs["run_status"] == "failed"
     assert open_dataset(path).attrs["run_message"] == "ValueError: too wet"
+
+
+def test_samples_wait_for_the_flush_interval_and_are_missing_until_then(tmp_path: Path, fake: ModuleType) -> None:
+    path = tmp_path / "run.nc"
+    writer, simulation = NetCDFWriter(path, flush_interval=3600.0), fake.FakeSimulation()
+    writer.sphframe_run_started(simulation=simulation)
+    fake.play(writer, simulation, 9)  # the first with a frame
+    assert open_dataset(path).sizes["probe_time"] == 1
+    with xr.open_dataset(path) as plain:
+        missing = np.arange(plain.sizes["probe_time"]) > 0
+        assert plain.kinetic_energy.isnull().values.tolist() == missing.tolist()
+    writer.flush()
+    assert open_dataset(path).sizes["probe_time"] == 9
+    writer.sphframe_run_failed(simulation=simulation, error=ValueError("too wet"))
+
+
+def test_the_size_is_known_before(tmp_path: Path, fake: ModuleType) -> None:
+    path, simulation = tmp_path / "run.nc", fake.FakeSimulation(fake.FakeCase(until=0.5), 2000)
+    writer = NetCDFWriter(path)
+    writer.sphframe_run_started(simulation=simulation)
+    fake.play(writer, simulation, 51)
+    writer.sphframe_run_finished(simulation=simulation)
+    size, frames = planned_size(simulation)
+    assert frames - 1 == open_dataset(path).sizes["time"] == 6
+    assert size == pytest.approx(path.stat().st_size, rel=0.3)
+
+
+def test_a_removed_particle_has_no_pressure_and_all_others_have_one(tmp_path: Path, fake: ModuleType) -> None:
+    simulation, writer = fake.FakeSimulation(), NetCDFWriter(tmp_path / "run.nc")
+    fields = simulation.fields()
+    for values in fields:
+        values[7] = np.nan
+    simulation.fields = lambda: fields
+    writer.sphframe_run_started(simulation=simulation)
+    writer.sphframe_frame_due(simulation=simulation)
+    fields.pressure[8] = np.nan
+    with pytest.raises(SimulationError, match="pressure is not finite"):
+        writer.sphframe_frame_due(simulation=simulation)
+    writer.sphframe_run_failed(simulation=simulation, error=ValueError("too wet"))
+    assert open_dataset(tmp_path / "run.nc").pressure.isnull().values.nonzero()[1].tolist() == [7]
 
 
 def test_case_without_probes_gauges_and_bodies(tmp_path: Path, fake: ModuleType) -> None:
@@ -245,9 +291,32 @@ def test_missing_foreign_and_truncated_files(tmp_path: Path, written: Path) -> N
 def test_clashing_diagnostic(tmp_path: Path, fake: ModuleType) -> None:
     simulation = fake.FakeSimulation()
     object.__setattr__(simulation.scene.diagnostics[0], "name", "mass")
+    gc.collect()
+    before = psutil.Process().num_fds() if os.name == "posix" else 0
+    writer = NetCDFWriter(tmp_path / "run.nc")
     with pytest.raises(OutputError, match="rename"):
-        NetCDFWriter(tmp_path / "run.nc").sphframe_run_started(simulation=simulation)
+        writer.sphframe_run_started(simulation=simulation)
     assert not list(tmp_path.iterdir())
+    gc.collect()  # of the error, whose traceback has the file
+    assert os.name != "posix" or psutil.Process().num_fds() <= before, "what was deleted is still open"
+
+
+def test_a_failure_that_has_nothing_to_do_with_space_is_told_as_it_is(tmp_path: Path) -> None:
+    def fail(file: netCDF4.Dataset) -> None:
+        raise RuntimeError("NetCDF: HDF error")
+
+    with pytest.raises(OutputError, match=r"NetCDF: HDF error; nothing was written\. To fix it: check the folder"):
+        RunFile(tmp_path / "run.nc").create(fail, overwrite=False)
+
+
+def test_a_file_of_another_run_is_not_kept_locked(written: Path) -> None:
+    file = RunFile(written)
+    with pytest.raises(OutputError, match="of another run"):
+        file.reopen(SimpleNamespace(run_id="another", frames=0, samples=0))
+    assert not file.is_open
+    lock = lock_file(written)
+    assert lock is not None
+    os.close(lock)
 
 
 def test_last_values_of_the_file_are_never_zero() -> None:
