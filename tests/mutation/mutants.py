@@ -6,14 +6,15 @@
 A mutant is a file with one change of its syntax tree: another operator, comparison or number, a negation left out, a
 statement left out. It is planted in a copy of the repository, where the tests of its room run until the first fails. A
 mutant that no test notices has survived; ``equivalents.toml`` lists those that change nothing, with the reason. Tests
-that are slow or long are left out. Each mutant starts from a cache of loops that the unchanged code has compiled, and
-what it compiles is thrown away: Numba does not notice a change in a function that a cached one calls from another file.
-``SPHFRAME_MUTATION_CACHE`` names the folder of the copy and its caches, which is kept for the next call.
+that are slow or long are left out. Mutants share a cache of compiled loops: most are named by a hash of all code that
+they call, and the others of the mutant's room are thrown away. At the end the tests that killed run without a mutant.
+``SPHFRAME_MUTATION_CACHE`` names the folder of the copy and its cache, which is kept for the next call.
 """
 
 import argparse
 import ast
 import copy
+import itertools
 import os
 import random
 import re
@@ -25,7 +26,9 @@ import time
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import pytest
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
@@ -48,7 +51,8 @@ SWAPPED = {
     ast.IsNot: ast.Is, ast.And: ast.Or, ast.Or: ast.And,
     ast.In: ast.NotIn, ast.NotIn: ast.In,  # codespell:ignore
 }  # fmt: skip
-KILLED, SURVIVED = "killed", "SURVIVED"
+KILLED, SURVIVED, UNDECIDED = "killed", "SURVIVED", "UNDECIDED"
+_order: dict[str, int] = {}
 
 
 class Mutant(NamedTuple):
@@ -137,21 +141,22 @@ def mutants_of(file: str) -> Iterator[tuple[Mutant, str]]:
             )
 
 
-def chosen(rooms: list[str], seed: int, count: int) -> list[tuple[Mutant, str]]:
-    """Return ``count`` random mutants of each of ``rooms``."""
+def chosen(rooms: list[str], seed: int, count: int, skip: int) -> list[tuple[Mutant, str]]:
+    """Return ``count`` random mutants of each of ``rooms``, of one room after the other, without the first ``skip``."""
     found = []
     for room in rooms:
         files = sorted(str(p.relative_to(ROOT / "sphframe")) for p in (ROOT / "sphframe" / room).glob("*.py"))
         every = [mutant for file in files for mutant in mutants_of(file)]
-        found += random.Random(f"{seed} {room}").sample(every, min(count, len(every)))
-    return found
+        random.Random(f"{seed} {room}").shuffle(every)
+        found.append(every[skip:count])
+    return [mutant for row in itertools.zip_longest(*found) for mutant in row if mutant]
 
 
 class Copy:
-    """A copy of the repository in ``folder``, with the loops that its unchanged code compiles."""
+    """A copy of the repository in ``folder``, with a cache of its compiled loops."""
 
     def __init__(self, folder: Path) -> None:
-        self.tree, self._caches = folder / "tree", folder
+        self.tree, self._folder, self._cache = folder / "tree", folder, folder / "cache"
         listed = subprocess.run(
             ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True,
             check=True, text=True,
@@ -161,39 +166,32 @@ class Copy:
             if source.is_file() and not (target.exists() and target.stat().st_mtime == source.stat().st_mtime):
                 target.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(source, target)
-
-    def warm(self, room: str) -> float:
-        """Run the tests of a room on the unchanged code, which must pass; return the time it took, s."""
-        start = time.monotonic()
-        code, output = self._run(room, self._caches / "cache", None)
-        if code:
-            raise SystemExit(f"the tests of {room} fail without any mutant:\n{output}")
-        return time.monotonic() - start
+        for room in ROOMS:
+            self._forget(room)
 
     def verdict(self, mutant: Mutant, source: str, limit: float) -> tuple[str, str]:
-        """Return whether the tests of the mutant's room notice it, and the first that does."""
-        path, cache = self.tree / "sphframe" / mutant.file, self._caches / "cache-of-mutant"
-        shutil.rmtree(cache, ignore_errors=True)
-        shutil.copytree(self._caches / "cache", cache, copy_function=os.link)
-        for index in cache.glob(f"{mutant.file.partition('/')[0]}_*/*.nbi"):
-            if not re.search("_[0-9a-f]{20}[sp]-", index.name):  # it is not named by all that it calls
-                index.unlink()
+        """Return whether the tests of the mutant's room notice it within ``limit``, s, and the first that does."""
+        path, room = self.tree / "sphframe" / mutant.file, mutant.file.partition("/")[0]
+        self._forget(room)
         original, stamp = path.read_text(), path.stat()
         try:
             path.write_text(source)
-            code, output = self._run(mutant.file.partition("/")[0], cache, limit)
+            code, output = self.run(self._in_order(mutant.file), limit)
         finally:
             path.write_text(original)
             os.utime(path, ns=(stamp.st_atime_ns, stamp.st_mtime_ns))
+            self._forget(room)
         failed = [line for line in output.splitlines() if line.startswith(("FAILED", "ERROR"))]
-        return (KILLED if code else SURVIVED), (failed or [output.strip()[-120:]])[0][:160]
+        return (UNDECIDED if code is None else KILLED if code else SURVIVED), (failed or [output.strip()[-120:]])[0]
 
-    def _run(self, room: str, cache: Path, limit: float | None) -> tuple[int, str]:
-        tests = [f"tests/{path}" for path in ROOMS[room].split()]
+    def run(self, tests: list[str], limit: float | None) -> tuple[int | None, str]:
+        """Run ``tests`` until the first fails; return the exit code, None if it took too long, and what they print."""
         environment = {
-            **os.environ, "NUMBA_CACHE_DIR": str(cache), "PYTHONPATH": f"{self.tree}:{HERE}",
-            "OMP_WAIT_POLICY": "passive", "PYTHONDONTWRITEBYTECODE": "1",
+            **os.environ, "NUMBA_CACHE_DIR": str(self._cache), "OMP_WAIT_POLICY": "passive",
+            "PYTHONPATH": f"{self.tree}:{self.tree / HERE.relative_to(ROOT)}",
+            "PYTHONPYCACHEPREFIX": str(self._folder / "byte-code"),
         }  # fmt: skip
+        environment.pop("PYTHONDONTWRITEBYTECODE", None)
         command = [
             sys.executable, "-m", "pytest", "-x", "-q", "-p", "mutants", "-p", "no:cacheprovider", "-p", "no:xdist",
             "-p", "no:benchmark", "--tb=line", "-o", "addopts=--import-mode=importlib", "-m",
@@ -204,8 +202,31 @@ class Copy:
                 command, cwd=self.tree, env=environment, capture_output=True, text=True, timeout=limit, check=False
             )
         except subprocess.TimeoutExpired:
-            return 1, "it took too long"
+            return None, f"no answer within {limit:.0f} s"
         return done.returncode, done.stdout[-20000:]
+
+    def _in_order(self, file: str) -> list[str]:
+        """Return the files of tests of a room; first those that name what ``file`` defines."""
+        tree = ast.parse((self.tree / "sphframe" / file).read_text())
+        names = [node.name for node in tree.body if isinstance(node, ast.FunctionDef | ast.ClassDef)]
+        room, module = file.removesuffix(".py").split("/")
+        named = re.compile(rf"\b({'|'.join([f'{room}.{module}', *names])})\b")
+        paths = [self.tree / "tests" / path for path in ROOMS[room].split()]
+        files = [test for path in paths for test in (sorted(path.glob("test_*.py")) if path.is_dir() else [path])]
+        return [str(test) for test in sorted(files, key=lambda test: not named.search(test.read_text()))]
+
+    def _forget(self, room: str) -> None:
+        """Remove the compiled loops of a room that are not named by a hash of all that they call."""
+        for index in self._cache.glob(f"{room}_*/*.nbi"):
+            if not re.search("_[0-9a-f]{20}[sp]-", index.name):
+                index.unlink()
+
+
+def pytest_configure() -> None:
+    """As a plugin of pytest: load a loop that is named by a hash of its code also if its file has changed elsewhere."""
+    from numba.core import caching
+
+    caching._SourceFileBackedLocatorMixin.get_source_stamp = lambda self: ""
 
 
 def pytest_collection() -> None:
@@ -219,36 +240,52 @@ def pytest_collection() -> None:
     settings.load_profile("first-failure")
 
 
+def pytest_itemcollected(item: Any) -> None:
+    """As a plugin of pytest: keep the order in which the files were named; another hook puts slow files first."""
+    _order.setdefault(str(item.path), len(_order))
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items: list[Any]) -> None:
+    """As a plugin of pytest: the files in the order in which they were named; another hook puts slow ones first."""
+    items.sort(key=lambda item: _order[str(item.path)])
+
+
 def main() -> None:
     """Run the mutants that are asked for, and print the score of each room."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("rooms", nargs="*", help=f"of {', '.join(ROOMS)}; by default all")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=10, help="random mutants of each room")
+    parser.add_argument("--skip", type=int, default=0, help="leave out the first ones of each room, to go on")
+    parser.add_argument("--limit", type=float, default=900.0, help="for the tests of one mutant, s")
     parser.add_argument("--only", action="append", default=[], help="key of a mutant, instead of random ones")
     options = parser.parse_args()
     if options.only:
         files = {key.partition(":")[0] for key in options.only}
         todo = [m for file in sorted(files) for m in mutants_of(file) if m[0].key in options.only]
     else:
-        todo = chosen(options.rooms or list(ROOMS), options.seed, options.count)
+        todo = chosen(options.rooms or list(ROOMS), options.seed, options.count, options.skip)
     equivalents = tomllib.loads((HERE / "equivalents.toml").read_text())
     folder = Path(os.environ.get("SPHFRAME_MUTATION_CACHE") or tempfile.mkdtemp(prefix="sphframe-mutants-"))
     place = Copy(folder)
-    limits: dict[str, float] = {}
     score: dict[str, list[str]] = {}
+    killers = set()
     for mutant, source in todo:
-        room = mutant.file.partition("/")[0]
         if mutant.old in equivalents.get(mutant.file, {}):
             print(f"equivalent {mutant.key} {mutant.old} -> {mutant.new}", flush=True)
             continue
-        if room not in limits:
-            limits[room] = 5.0 * place.warm(room) + 120.0
-        verdict, by = place.verdict(mutant, source, limits[room])
-        score.setdefault(room, []).append(verdict)
-        print(f"{verdict} {mutant.key} {mutant.old[:80]} -> {mutant.new[:80]}   {by}", flush=True)
+        start = time.monotonic()
+        verdict, by = place.verdict(mutant, source, options.limit)
+        score.setdefault(mutant.file.partition("/")[0], []).append(verdict)
+        if match := re.fullmatch(r"(?:FAILED|ERROR) (\S+?)(?:\[.*| .*)?", by):
+            killers.add(match[1])
+        seconds = time.monotonic() - start
+        print(f"{verdict} {mutant.key} {mutant.old[:80]} -> {mutant.new[:80]}  {seconds:.0f} s {by[:160]}", flush=True)
     for room, verdicts in score.items():
         print(f"{room}: {verdicts.count(KILLED)} of {len(verdicts)} killed")
+    if killers and place.run(sorted(killers), None)[0]:
+        raise SystemExit("a test that killed a mutant fails without it too")
 
 
 if __name__ == "__main__":
