@@ -132,7 +132,7 @@ class Loop:
         if self._kernel is None:
             kernel = self._join(_copied(self._template, self._parts, {}))
             self._out = cuda.to_device(self._start if len(self._start) else np.zeros(1))
-            signature = numba.void(_type_of(self._start), _type_of(arguments))
+            signature = numba.void(type_of(self._start), type_of(arguments))
             self._kernel = (cuda.jit(kernel) if SIMULATED else cuda.jit(signature)(kernel))[_blocks(), THREADS]
         if len(self._start):
             self._out.copy_to_device(self._start)
@@ -144,14 +144,14 @@ class Loop:
         return found[0] if len(found) == 1 else tuple(found.tolist())
 
 
-def _type_of(value: Any) -> Any:
-    """Return the type of an argument; no order is assumed of arrays unless it is seen to be that of C."""
+def type_of(value: Any) -> Any:
+    """Return the type of an argument; no order is assumed of arrays, empty ones too, unless only C has it."""
     if SIMULATED:
         return numba.void
     if isinstance(value, tuple):
-        return numba.types.BaseTuple.from_types(tuple(map(_type_of, value)), type(value))
+        return numba.types.BaseTuple.from_types(tuple(map(type_of, value)), type(value))
     kind = numba.typeof(value)
-    if isinstance(kind, numba.types.Array) and kind.ndim > 1 and (kind.layout != "C" or 1 in value.shape):
+    if isinstance(kind, numba.types.Array) and kind.ndim > 1 and (kind.layout != "C" or min(value.shape) < 2):
         return kind.copy(layout="A")
     return kind
 

@@ -5,8 +5,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from numba import cuda
+from sphframe_cuda.loops import type_of
 from typer.testing import CliRunner
 
 from sphframe.cli.app import app
@@ -33,3 +35,9 @@ def test_a_run_without_a_device_is_refused(tmp_path: Path, monkeypatch: pytest.M
     assert result.exit_code == 2
     assert "no CUDA device was found" in " ".join(result.output.split())
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(("shape", "layout"), [((0, 8), "A"), ((4, 1), "A"), ((4, 8), "C")])
+def test_a_loop_assumes_an_order_only_where_it_is_seen(shape: tuple[int, int], layout: str) -> None:
+    assert type_of(np.empty(shape)).layout == layout
+    assert type_of((np.empty(shape, order="F"),))[0].layout == "A"
