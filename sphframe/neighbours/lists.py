@@ -60,6 +60,9 @@ class NeighbourLists:
         ``fluid``, and ``points`` has only what is seen, at the time of the search (:mod:`sphframe.neighbours.sight`).
     """
 
+    SKIN = 0.1
+    """skin of a run's lists over the kernel support"""
+
     def __init__(
         self,
         dim: int,

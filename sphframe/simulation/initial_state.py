@@ -27,9 +27,6 @@ from sphframe.simulation.rest_state import pressure_at_depth, still_levels
 from sphframe.simulation.shifting import Shifting
 from sphframe.simulation.system import FluidSystem
 
-SKIN = 0.1
-"""skin of the neighbour lists over the kernel support"""
-
 
 def loop_parameters(case: Case, scene: Scene, components: Components) -> LoopParameters:
     """Return the parameters of the loops for ``case``, whose ``scene`` gives the depth of water."""
@@ -103,7 +100,7 @@ def initial_system(
         len(position),
         boundary.count,
         parameters.support,
-        SKIN * parameters.support,
+        kind.lists_type.SKIN * parameters.support,
         cluster=LANES,
         width=0.75 * LANES ** (1.0 / dim) * spacing,
         sight=boundary.sight,
