@@ -116,8 +116,8 @@ class RunView(Protocol):
     def probe_pressures(self) -> Array:
         """Return the pressure at each probe (p,), Pa."""
 
-    def gauge_elevations(self) -> Array:
-        """Return the free-surface elevation at each gauge, m; NaN where dry."""
+    def gauge_readings(self) -> tuple[Array, Array]:
+        """Return the free-surface elevation at each gauge, m, NaN where dry, and the depth of water, m."""
 
     def energies(self) -> dict[str, float]:
         """Return the ``kinetic``, ``potential`` and ``internal`` energy, J (2-D: per metre of width)."""

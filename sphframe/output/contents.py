@@ -76,7 +76,7 @@ def sample_of(simulation: RunView) -> dict[str, Any]:
     if scene.probes:
         sample["probe_pressure"], sample["probe_wet"] = simulation.probe_readings()
     if scene.gauges:
-        sample["gauge_elevation"] = simulation.gauge_elevations()
+        sample["gauge_elevation"], sample["gauge_depth"] = simulation.gauge_readings()
     if scene.walls:
         loads, squeezed = simulation.wall_loads(), 0 if simulation.case.dimension == 2 else slice(None)
         for where, members in (("wall", scene.walls), ("part", scene.wall_parts)):
@@ -164,7 +164,7 @@ def _define(file: netCDF4.Dataset, simulation: RunView, lengths: Mapping[str, in
             made.setncattr("long_name", variable.long_name)
             made.setncatts(variable.attributes)
     axes = "xyz"[:dimension]
-    for name, where in (("probe_pressure", "probe"), ("gauge_elevation", "gauge")):
+    for name, where in (("probe_pressure", "probe"), ("gauge_elevation", "gauge"), ("gauge_depth", "gauge")):
         if where in lengths:
             known = axes if where == "probe" else axes[:-1]
             file[name].setncattr("coordinates", " ".join(f"{where}_{axis}" for axis in known))

@@ -119,6 +119,7 @@ VARIABLES: Mapping[str, Variable] = {
     "probe_pressure": Variable(("probe_time", "probe"), "Pa", "pressure at the probe"),
     "probe_wet": Variable(("probe_time", "probe"), "1", "1 where the probe is wet, 0 where it is dry", "i4"),
     "gauge_elevation": Variable(("probe_time", "gauge"), "m", "elevation of the free surface"),
+    "gauge_depth": Variable(("probe_time", "gauge"), "m", "length of the vertical that is in water"),
     "kinetic_energy": Variable(("probe_time",), "J", "kinetic energy", per_width=True),
     "potential_energy": Variable(("probe_time",), "J", "potential energy", per_width=True),
     "internal_energy": Variable(("probe_time",), "J", "internal energy of compression", per_width=True),

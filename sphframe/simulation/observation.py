@@ -13,7 +13,7 @@ from sphframe.interfaces import Fields, Motion, Status, WallLoad
 from sphframe.physics import LoopParameters, sample_points, uniform_and_linear
 from sphframe.simulation.components import Components
 from sphframe.simulation.filling_check import filling_by
-from sphframe.simulation.probes import Gauges, PressureProbes, Readings
+from sphframe.simulation.probes import GaugeReadings, Gauges, PressureProbes, Readings
 from sphframe.simulation.system import FluidSystem
 from sphframe.simulation.wall_loads import WallLoads
 
@@ -136,9 +136,9 @@ class Observation:
         """Return the pressure at each probe, Pa; 0 where it is dry."""
         return self.probe_readings().pressure
 
-    def gauge_elevations(self) -> Array:
-        """Return the elevation of the free surface at each gauge, m; NaN where dry."""
-        return self._gauges.elevations(self.sample(self._gauges.present_points(self.system.bodies.motions))[1])
+    def gauge_readings(self) -> GaugeReadings:
+        """Return the elevation of the free surface at each gauge, m, NaN where dry, and the depth of water, m."""
+        return self._gauges.readings(self.sample(self._gauges.present_points(self.system.bodies.motions))[1])
 
     def diagnostics(self) -> dict[str, float]:
         """Return the case's own diagnostics; those of a body see positions in the frame in which it was drawn."""

@@ -21,6 +21,13 @@ class Readings(NamedTuple):
     wet: BoolArray
 
 
+class GaugeReadings(NamedTuple):
+    """At each gauge: ``elevation`` of the surface, m, NaN where dry; ``depth``, the length of its line in water, m."""
+
+    elevation: Array
+    depth: Array
+
+
 class PressureProbes:
     """Pressure sensors: points, and discs that average over the chord at each height.
 
@@ -88,7 +95,10 @@ class PressureProbes:
 
 
 class Gauges:
-    """Free-surface elevation gauges: the highest point of a vertical line where the filling passes one half.
+    """Free-surface gauges: the highest point of a vertical line where the filling passes one half, and how much is wet.
+
+    Spray and sheets of water above the surface count for the elevation, and with their thickness for the depth, which
+    is what a wire gauge measures. The filling is linear between points that are a ``resolution``, m, apart.
 
     A gauge with a body moves along with the displacement of its centre; its line remains vertical.
     """
@@ -105,10 +115,7 @@ class Gauges:
                 raise InputError(
                     f"gauge {gauge.name!r} has position {gauge.position}; give the {dim - 1} horizontal coordinate(s)"
                 )
-            line = np.empty((len(self._heights), dim))
-            line[:, :-1] = gauge.position
-            line[:, -1] = self._heights
-            lines.append(line)
+            lines.append(np.column_stack([np.tile(gauge.position, (len(self._heights), 1)), self._heights]))
         self.points = np.array(lines).reshape(-1, dim)
         self._count = len(gauges)
 
@@ -120,16 +127,15 @@ class Gauges:
                 line[:, :-1] += motions[body].position[: lines.shape[2] - 1]
         return lines.reshape(self.points.shape)
 
-    def elevations(self, fillings: Array) -> Array:
-        """Return the elevation at each gauge, m, NaN where dry, from ``fillings`` (points,)."""
-        elevations = np.full(self._count, np.nan)
-        for index, filling in enumerate(fillings.reshape(self._count, -1) if self._count else []):
-            wet = np.flatnonzero(filling >= 0.5)
-            if len(wet) and wet[-1] + 1 < len(filling):
-                k = wet[-1]
-                part = (filling[k] - 0.5) / (filling[k] - filling[k + 1])
-                elevations[index] = self._heights[k] + part * (self._heights[k + 1] - self._heights[k])
-        return elevations
+    def readings(self, fillings: Array) -> GaugeReadings:
+        """Return what the gauges read from the ``fillings`` (points,)."""
+        excess = fillings.reshape(self._count, len(self._heights)) - 0.5
+        wet, size = np.maximum(excess, 0.0), np.abs(excess)
+        lengths = np.diff(self._heights) * (wet[:, :-1] + wet[:, 1:]) / np.maximum(size[:, :-1] + size[:, 1:], 1e-300)
+        last, gauges = excess.shape[1] - 1 - np.argmax(excess[:, ::-1] >= 0.0, axis=1), np.arange(self._count)
+        ends = (excess[gauges, last] >= 0.0) & (last + 1 < len(self._heights))
+        tops = self._heights[last] + lengths[gauges, np.minimum(last, len(self._heights) - 2)]
+        return GaugeReadings(np.where(ends, tops, np.nan), lengths.sum(axis=1))
 
 
 def _indices(names: Sequence[str | None], bodies: Sequence[str]) -> IntArray:

@@ -82,8 +82,8 @@ class FakeSimulation:
     def probe_readings(self) -> Any:
         return self.probe_pressures(), np.ones(len(self.scene.probes), np.bool_)
 
-    def gauge_elevations(self) -> Any:
-        return np.array([0.5])
+    def gauge_readings(self) -> Any:
+        return np.array([0.5]), np.array([0.4])
 
     def energies(self) -> dict[str, float]:
         return {"kinetic": self.time, "potential": 2.0, "internal": 1.0}

@@ -35,7 +35,8 @@ def test_every_variable_holds_its_own_quantity(tmp_path: Path, fake: ModuleType)
     run.removed_count, run.densities_outside, run.ghosts = 3, 4, place
     answers = {
         "fields": fluid, "ghost_fields": ghosts, "body_motions": {"paddle": motion}, "wall_loads": loads,
-        "energies": energies, "masses": masses, "probe_readings": readings, "gauge_elevations": np.array([190.0]),
+        "energies": energies, "masses": masses, "probe_readings": readings,
+        "gauge_readings": (np.array([190.0]), np.array([189.0])),
         "diagnostics": {"front_position": 191.0}, "status_counts": np.arange(4) + 200, "particles_outside": 6,
     }  # fmt: skip
     for name, answer in answers.items():
@@ -54,7 +55,8 @@ def test_every_variable_holds_its_own_quantity(tmp_path: Path, fake: ModuleType)
         "body_angular_velocity": motion.velocity[2], "body_angular_acceleration": motion.acceleration[2],
         **{f"wall_{name}": [np.squeeze(getattr(load, name)) for load in loads.values()] for name in WallLoad._fields},
         **{f"{name}_energy": value for name, value in energies.items()}, "total_energy": sum(energies.values()),
-        "probe_pressure": readings[0], "probe_wet": readings[1], "gauge_elevation": 190.0, "front_position": 191.0,
+        "probe_pressure": readings[0], "probe_wet": readings[1], "gauge_elevation": 190.0, "gauge_depth": 189.0,
+        "front_position": 191.0,
         "interpolation_status": np.arange(4) + 200, "particles_removed": 3, "densities_outside": 4, "step": 7,
         "time_step": 180.0, "wall_clock": 181.0, "processor_time": 182.0, "probe_time": 0.0, "wall_body": [-1, 0],
         "probe_body": [-1, -1], "gauge_body": -1, "probe_x": [0.0, 0.0], "probe_y": [0.0, 0.1], "gauge_x": 0.5,

@@ -5,6 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
 from sphframe import InputError, Simulation, load_case, run
 from sphframe.cases import Custom, Gauge, Probe
@@ -57,6 +60,21 @@ def test_instruments_move_with_their_bodies():
     gauges = Gauges([Gauge(name="g", position=(2.0,), body="b"), Gauge(name="h", position=(3.0,))],
                     np.zeros(2), np.ones(2), 0.5, ["c", "b"])  # fmt: skip
     np.testing.assert_allclose(np.unique(gauges.present_points(motions)[:, 0]), [2.1, 3.0])
+
+
+@settings(max_examples=50)
+@given(arrays(np.float64, (2, 8), elements=st.floats(0.0, 1.0).filter(lambda f: abs(f - 0.5) > 1e-3)))
+def test_a_gauge_reads_the_highest_water_and_how_much_of_its_line_is_wet(fillings):
+    two = [Gauge(name="a", position=(0.0,)), Gauge(name="b", position=(0.0,))]
+    gauges = Gauges(two, np.zeros(2), np.full(2, 0.875), 0.125)
+    heights, fine = gauges.points[:8, 1], np.linspace(0.0, 0.875, 70_001)
+    for filling, elevation, depth in zip(fillings, *gauges.readings(fillings), strict=True):
+        wet = np.interp(fine, heights, filling) >= 0.5
+        assert depth == pytest.approx(0.875 * wet.mean(), abs=1e-4)
+        if wet[-1] or not wet.any():
+            assert np.isnan(elevation)
+        else:
+            assert elevation == pytest.approx(fine[wet].max(), abs=2e-5)
 
 
 BOX = {"shape": "box", "lower": [0, 0], "upper": [0.6, 0.32]}

@@ -125,7 +125,7 @@ def test_reading_a_simulation_changes_no_step():
     for _ in range(20):
         one.advance()
         other.advance()
-        other.probe_pressures(), other.energies(), other.wall_forces(), other.gauge_elevations()
+        other.probe_pressures(), other.energies(), other.wall_forces(), other.gauge_readings()
     np.testing.assert_array_equal(one.fields().position, other.fields().position)
     np.testing.assert_array_equal(one.fields().pressure, other.fields().pressure)
 

@@ -98,7 +98,7 @@ def test_floating_box_finds_archimedes_draught() -> None:
         simulation.advance()
         if simulation.time > 1.5 and simulation.step % 20 == 0:
             bottom = 0.3 - 0.06 + simulation.body_motions()["box"].position[1]
-            draughts.append(float(np.mean(simulation.gauge_elevations())) - bottom)
+            draughts.append(float(np.mean(simulation.gauge_readings().elevation)) - bottom)
     assert np.mean(draughts) == pytest.approx(0.08, abs=0.005)
     assert abs(simulation.body_motions()["box"].position[2]) < 0.02
     assert simulation.particles_outside() == 0
