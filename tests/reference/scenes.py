@@ -10,16 +10,13 @@ from sphframe import BodyForce, Simulation
 from sphframe.cases import Custom
 from sphframe.geometry import BoxRegion, BoxWall, PolygonWall
 
-from .plain import Motion, Plain, improved_shepard, moving_least_squares, normalised, shepard, turn
+from .plain import Plain
+from .walls import Motion, Walls, turn
 
 Array = NDArray[np.float64]
 DX = 0.1
-WEIGHTS = {
-    "improved-shepard": improved_shepard,
-    "shepard": shepard,
-    "normalized": normalised,
-    "mls-linear": moving_least_squares,
-}
+PERIODIC = {"channel": "x", "moving channel": "x", "gutter": "y", "nothing": "xy"}
+"""directions in which scenes of these kinds repeat themselves"""
 
 
 class Swirl(BodyForce):
@@ -42,7 +39,7 @@ def drive(run: Simulation, force: Swirl) -> None:
     run.system._driving._added = force
 
 
-def motion(random: np.random.Generator, dim: int) -> Callable[[float], Motion]:
+def motion(random: np.random.Generator, dim: int, *, turns: bool = True) -> Callable[[float], Motion]:
     """A body that drifts, turns and speeds up, and is already displaced and turned at the start."""
     size = 3 if dim == 2 else 6
     place, rate, growth = random.normal(size=size), random.normal(size=size), 5.0 * random.normal(size=size)
@@ -50,6 +47,9 @@ def motion(random: np.random.Generator, dim: int) -> Callable[[float], Motion]:
         axis = random.normal(size=3)
         for vector in (place, rate, growth):
             vector[3:] = axis * vector[3]
+    if not turns:
+        for vector in (place, rate, growth):
+            vector[dim:] = 0.0
 
     def at(time: float) -> Motion:
         return place + rate * time + 0.5 * growth * time**2, rate + growth * time, growth
@@ -58,8 +58,24 @@ def motion(random: np.random.Generator, dim: int) -> Callable[[float], Motion]:
 
 
 def walls_of(kind: str, dim: int, size: Array) -> list[Any]:
-    """A tank without a lid: one box, or in 2-D a slope and the rest, which share two corners; the last one moves."""
-    if kind == "box":
+    """A tank without a lid, one box, or in 2-D a slope and the rest, which share two corners; or what repeats itself.
+
+    A carried box does not turn, and the force is the same everywhere. A channel along x has a bed that slides or moves
+    and a lid; a gutter along y has no ends.
+    """
+    if kind == "nothing":
+        return []
+    if "channel" in kind:
+        (length, height), own = size, "tank" if kind == "moving channel" else None
+        return [
+            PolygonWall(name="lid", points=[(0.0, height), (length, height)], body=own),
+            PolygonWall(name="bed", points=[(0.0, 0.0), (length, 0.0)], body=own,
+                        surface_velocity=None if own else (0.7, 0.0)),
+        ]  # fmt: skip
+    if kind == "gutter":
+        return [BoxWall(name="tank", lower=(0.0,) * dim, upper=tuple(size), open_faces=("+z", "-y", "+y"),
+                        body="tank")]  # fmt: skip
+    if "box" in kind:
         return [BoxWall(name="tank", lower=(0.0,) * dim, upper=tuple(size), open_faces=("+z" if dim == 3 else "+y",),
                         body="tank")]  # fmt: skip
     length, height = size
@@ -75,20 +91,25 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
     """The same random state for the solver and for plain NumPy."""
     random = np.random.default_rng(seed)
     cells = random.integers([4, 4, 4][:dim], [8, 7, 5] if dim == 3 else [9, 8])
-    size = DX * (cells + np.eye(dim)[-1] * 1.0)
-    drift, centre = motion(random, dim), random.normal(size=dim)
+    axes = PERIODIC.get(walls, "")
+    repeats = np.array([axis in axes for axis in "xyz"[:dim]])
+    cells[repeats] += 5  # a period is longer than twice the support
+    size = DX * (cells + np.eye(dim)[-1] * (not repeats[-1] and "channel" not in walls))
+    drift, centre = motion(random, dim, turns=not axes and walls != "carried box"), random.normal(size=dim)
     drawn = walls_of(walls, dim, size)
-    moves = drawn[0].body is not None
+    moves = bool(drawn) and drawn[0].body is not None
     case = Custom(
         dimension=dim, particle_spacing=DX, walls=drawn, fluid=[BoxRegion(lower=(0.0,) * dim, upper=tuple(DX * cells))],
         bodies={"tank": {"name": "prescribed", "function": drift, "centre": tuple(centre)}} if moves else {},
-        until=1.0, time_step=1e-3, sound_speed=20.0, jitter=0.15, seed=seed, domain=((-9.0,) * dim, (9.0,) * dim),
+        until=1.0, time_step=1e-3, sound_speed=20.0, jitter=0.15, seed=seed, periodic=tuple(axes),
+        domain=(tuple(np.where(repeats, 0.0, -9.0)), tuple(np.where(repeats, size, 9.0))),
         density_diffusion=random.uniform(0.0, 0.3), artificial_viscosity=random.uniform(0.0, 0.3),
-        smoothing_length_ratio=1.3, **options,
+        **{"smoothing_length_ratio": 1.3, **options},
     )  # fmt: skip
     run = Simulation(case, threads=1)
     system, n, columns = run.system, run.fluid_count, run.columns
-    force = Swirl(5.0 * random.normal(size=dim), 5.0 * random.normal(size=(dim, dim)))
+    slope = 5.0 * random.normal(size=(dim, dim)) * ~repeats * (walls != "carried box")
+    force = Swirl(5.0 * random.normal(size=dim), slope)
     drive(run, force)
     gravity = case.gravity_vector
     state = run.state()
@@ -100,13 +121,17 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
     rows[:, columns.velocity] += 0.5 * random.normal(size=(n, dim))
     rows[:, columns.mass] *= random.uniform(0.9, 1.1, n)
     rows[:, columns.density] *= 1.0 + 2e-3 * random.normal(size=n)
+    if run.components.walls.rate is not None:
+        state["boundary.wall_state"][:] = 1000.0 * (1.0 + 2e-3 * random.normal(size=run.ghost_count))
     order = np.argsort(system.ids)
+    at_rest = run.boundary.velocity * (not moves)
+    faces = [[0.0, float(end)] for end in size[:-1]] + [[0.0]] if "box" in walls else None
+    around = Walls(run.boundary._drawn, run.boundary.wall_body, centre[None], [drift] if moves else [], at_rest,
+                   size * repeats, faces)  # fmt: skip
     plain = Plain(
-        case, 20.0, run.boundary._drawn, run.boundary.wall_body, centre[None], [drift] if moves else [],
-        lambda time: (gravity + force.acceleration(time), force.gradient(time)),
-        WEIGHTS[case.interpolator.name], run.boundary.velocity * (not moves),
+        case, 20.0, around, lambda time: (gravity + force.acceleration(time), force.gradient(time)),
         rows[order, columns.position], rows[order, columns.velocity], rows[order, columns.density],
-        rows[order, columns.mass],
+        rows[order, columns.mass], state["boundary.wall_state"].copy(),
     )  # fmt: skip
     run.restore(state)
     system.find_neighbours()

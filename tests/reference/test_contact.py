@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from .plain import turn
 from .scenes import DX, random_scene
+from .walls import turn
 
 pytestmark = pytest.mark.filterwarnings("ignore::sphframe.cases.CaseWarning")
 
@@ -13,7 +13,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::sphframe.cases.CaseWarning")
 def test_particles_behind_a_turned_wall(dim: int) -> None:
     run, plain = random_scene(3, dim)
     system, columns = run.system, run.columns
-    (place, _, _), centre = plain.bodies[0](0.0), run.boundary.centres[0]
+    (place, _, _), centre = plain.walls.bodies[0](0.0), run.boundary.centres[0]
     matrix, down = turn(place), -np.eye(dim)[-1]
     along = np.eye(dim)[0]
     wall_u = np.arange(1.0, dim + 1.0)
