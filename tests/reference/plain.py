@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .kernels import Array, Gaussian
+from .shifting import control, shift
 from .treatments import RUBS_WITHOUT_FRICTION, TREATMENTS
 from .walls import Walls
 from .weights import Around, shared
@@ -76,7 +77,8 @@ class Plain:
         self.p_sum = self.p[:, None] + np.concatenate([np.tile(self.p, (n, 1)), np.broadcast_to(p, wide[:2])], axis=1)
         self.rho_ji = self.rho[None] - self.rho[:, None]
         volume = given.share * (walls.drawn.volume if given.volume is None else given.volume)
-        self.slope = self.kernel.gradient(self.x_ji) * np.append(self.v, volume)[None, :, None]
+        self.volume = np.append(self.v, volume)
+        self.slope = self.kernel.gradient(self.x_ji) * self.volume[None, :, None]
         r2 = np.sum(self.x_ji**2, axis=2)
         self.r2 = np.where(r2 > 0.0, r2, 1.0)
         self.fluid = slice(0, n)
@@ -124,7 +126,8 @@ class Plain:
 
     def acceleration(self) -> Array:
         """Momentum."""
-        return self.pair_forces().sum(axis=1) / self.rho[:, None] + self.f
+        controlled = control(self) if self.case.tensile_control == "on" else 0.0
+        return self.pair_forces().sum(axis=1) / self.rho[:, None] + self.f + controlled
 
     def wall_rate(self) -> Array:
         """Of the walls' own densities."""
@@ -142,6 +145,13 @@ class Plain:
         return self.walls.loads(self.walls.wrapped(self.x), forces)
 
     # time
+
+    def advance(self, dt: float) -> None:
+        """One step by the integrator of the case, with the shift by the largest speed at its start."""
+        speed = float(np.linalg.norm(self.u, axis=1).max())
+        (self.rk4 if self.case.integrator.name == "rk4" else self.symplectic)(dt)
+        if self.case.shifting > 0.0:
+            shift(self, speed, dt)
 
     def start(self, time: float) -> None:
         """Compute the rates of the first state."""

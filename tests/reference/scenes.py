@@ -17,6 +17,8 @@ Array = NDArray[np.float64]
 DX = 0.1
 PERIODIC = {"channel": "x", "moving channel": "x", "gutter": "y", "nothing": "xy"}
 """directions in which scenes of these kinds repeat themselves"""
+FULL = ("channel", "moving channel", "full box")
+"""kinds without a free surface"""
 
 
 class Swirl(BodyForce):
@@ -76,8 +78,8 @@ def walls_of(kind: str, dim: int, size: Array) -> list[Any]:
         return [BoxWall(name="tank", lower=(0.0,) * dim, upper=tuple(size), open_faces=("+z", "-y", "+y"),
                         body="tank")]  # fmt: skip
     if "box" in kind:
-        return [BoxWall(name="tank", lower=(0.0,) * dim, upper=tuple(size), open_faces=("+z" if dim == 3 else "+y",),
-                        body="tank")]  # fmt: skip
+        opened = () if kind == "full box" else ("+z" if dim == 3 else "+y",)
+        return [BoxWall(name="tank", lower=(0.0,) * dim, upper=tuple(size), open_faces=opened, body="tank")]
     length, height = size
     body = None if kind == "at rest" else "tank"
     return [
@@ -94,7 +96,7 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
     axes = PERIODIC.get(walls, "")
     repeats = np.array([axis in axes for axis in "xyz"[:dim]])
     cells[repeats] += 5  # a period is longer than twice the support
-    size = DX * (cells + np.eye(dim)[-1] * (not repeats[-1] and "channel" not in walls))
+    size = DX * (cells + np.eye(dim)[-1] * (not repeats[-1] and walls not in FULL))
     drift, centre = motion(random, dim, turns=not axes and walls != "carried box"), random.normal(size=dim)
     drawn = walls_of(walls, dim, size)
     moves = bool(drawn) and drawn[0].body is not None
@@ -118,6 +120,7 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
         place, rate, _ = drift(0.0)
         rows[:, columns.position] = (rows[:, columns.position] - centre) @ turn(place).T + centre + place[:dim]
         rows[:, columns.velocity] = rate[:dim]
+    rows[:, columns.position] += 1.5 * random.uniform(-1.0, 1.0, dim) * size * repeats
     rows[:, columns.velocity] += 0.5 * random.normal(size=(n, dim))
     rows[:, columns.mass] *= random.uniform(0.9, 1.1, n)
     rows[:, columns.density] *= 1.0 + 2e-3 * random.normal(size=n)

@@ -61,10 +61,9 @@ def assert_same(run: Simulation, plain: Plain, seed: int) -> None:
 def compare(seed: int, dim: int, walls: str = "box", steps: int = 2, **options: Any) -> None:
     """Make some steps with both."""
     run, plain = random_scene(seed, dim, walls, **options)
-    integrate = plain.rk4 if options.get("integrator") == "rk4" else plain.symplectic
     for _ in range(steps):
         run.advance()
-        integrate(1e-3)
+        plain.advance(1e-3)
         run.system.keep(np.random.default_rng(seed).permutation(run.fluid_count))  # each keeps all that is its own
         run.system.find_neighbours()
     assume(plain.condition < 1e5)  # round-off is multiplied by it
@@ -107,8 +106,8 @@ def test_what_repeats_itself_in_space(seed: int) -> None:
 SHEARED = {"slip": "no", "kinematic_viscosity": 0.02, "tension": "free"}
 """the loops of the conformance checks of treatments"""
 MIRROR = {"hydrostatic_lift": "mirror"}
-METHODS = [{"interpolator": "mls-linear", **MIRROR}, {"interpolator": "mls-quadratic", **MIRROR},
-           {"interpolator": "sfdi", **MIRROR}, {"interpolator": "mdbc"}, {"interpolator": "adami"}]  # fmt: skip
+METHODS = [{"interpolator": name} for name in ("mls-linear", "mls-quadratic", "sfdi", "mdbc", "adami")]
+"""their loops are those of ``tests/boundary/test_ghosts.py``"""
 WALLS: list[dict[str, Any]] = [{"name": name} for name in TREATMENTS]
 OPTIONS: list[dict[str, Any]] = [
     {"name": "fixed-ghosts", "continuity": "free-slip"},
@@ -143,15 +142,27 @@ def test_treatments_in_the_plane(treatment: dict[str, Any], seed: int, walls: st
     compare_walls(treatment, seed, 2, walls, **SHEARED)
 
 
+SHIFTED = {"shifting": 1.0, "tensile_control": "on"}
+
+
+@settings(max_examples=2)
+@given(SEEDS)
+def test_shifting_and_the_control_of_the_tensile_instability(seed: int) -> None:
+    for walls in ("box", "full box"):
+        compare(seed, 2, walls, **SHIFTED)
+
+
 SCENES = [
     *((2, given) for given in (
         {}, {**MIRROR, "interpolator": "normalized", "kinematic_viscosity": 0.02, "tension": "free"},
         {"ghost_velocity": "interpolated", "interpolator": "shepard", "kinematic_viscosity": 0.02,
          "viscosity_model": "monaghan-gingold", "lowest_pressure": -300.0},
-        *METHODS, *(SHEARED | method for method in METHODS),
+        *METHODS, *(SHEARED | MIRROR | method for method in METHODS),
     )),
     (3, {}), (3, {**MIRROR, "interpolator": "normalized", "kinematic_viscosity": 0.02}),
     *((3, method) for method in METHODS),
+    *((dim, {**SHIFTED, "tension": "free"}) for dim in (2, 3)),
+    (2, {**SHIFTED, "shifting": 0.7, "equation_of_state": {"name": "linear", "background_pressure": 2000.0}}),
 ]  # fmt: skip
 
 

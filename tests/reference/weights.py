@@ -64,13 +64,17 @@ def normalised(around: Around) -> Array:
 
 
 def least_squares(around: Around, basis: Array) -> Array:
-    """e_1 M^-1 b_j W_j V_j, M = sum b_j b_j W_j V_j, by the factors Q R of sqrt(W_j V_j) b_j."""
+    """e_1 M^-1 b_j W_j V_j, M = sum b_j b_j W_j V_j, by the factors Q R of sqrt(W_j V_j) b_j.
+
+    There are none where the other terms of the basis reproduce the constant but for 1 % of its square, 1/(M^-1)_11.
+    """
     phi, terms = np.full(around.r.shape, np.nan), basis.shape[2]
     for k in np.flatnonzero(around.inside.sum(axis=1) >= terms):
         root = np.sqrt(around.parts[k])
         q, r = np.linalg.qr(root[:, None] * basis[k])
         if np.linalg.cond(r) < 1e6:
-            phi[k] = root * (q @ np.linalg.solve(r.T, np.eye(terms)[0]))
+            first = np.linalg.solve(r.T, np.eye(terms)[0])
+            phi[k] = root * (q @ first) if 0.01 * (first @ first) * (root @ root) < 1.0 else np.nan
     return limited(phi, 3.0)
 
 
