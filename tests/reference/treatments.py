@@ -255,5 +255,5 @@ TREATMENTS: dict[str, Callable[["Plain"], Assigned]] = {
     "lennard-jones": lennard_jones,
     "monaghan-kajtar-2009": monaghan_kajtar_2009,
 }
-RUBS_WITHOUT_FRICTION = ("fixed-ghosts", "mdbc-2025")
+RUBS_WITHOUT_FRICTION = ("fixed-ghosts", "mirror-images", "mdbc-2025")
 """treatments whose walls have a viscosity with free slip, too"""

@@ -44,6 +44,7 @@ class MirrorImages(WallTreatment):
 
     Known failures: behind curved walls images crowd or thin out, since they keep their volumes; in corners that are
     not right angles they overlap or leave gaps, and edges that the fluid flows around have no images beyond them.
+    u_w and b are those at the foot of the ghost next to m, up to 0.8 spacings away, which differ where a wall turns.
 
     Source: A. Colagrossi, M. Landrini (2003), doi:10.1016/S0021-9991(03)00324-3.
     """
