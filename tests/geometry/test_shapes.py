@@ -104,6 +104,16 @@ def test_points_of_a_function_are_a_shape() -> None:
     assert Polygon(points=points.tolist()).geometry(0.1).area == pytest.approx(math.pi / 2, abs=1e-4)
     straight = sampled(lambda t: (t, 0.0), 0.0, 1.0, 1e-5)
     assert len(straight) == 17
+    # along itself, with its tip between two points
+    back = sampled(lambda t: (1.0 - t**2, 0.0 * t), -0.775, 0.825, 1e-5)
+    assert back[:, 0].max() == pytest.approx(1.0, abs=1e-5)
+
+
+def test_a_shape_far_away_is_drawn_as_finely() -> None:
+    def curve(x: float) -> Curve:
+        return Curve(x=f"{x} + 0.01 * cos(t)", y="0.02 * sin(t)", start=0.1, stop=0.1 + 2 * math.pi, closed=True)
+
+    assert np.subtract(curve(1e3).bounds(), [[1e3, 0.0], [1e3, 0.0]]) == pytest.approx(np.array(curve(0.0).bounds()))
 
 
 @pytest.mark.parametrize("table", [{"shape": "sphere", "centre": (0, 0, 1), "radius": 2}], ids=str)

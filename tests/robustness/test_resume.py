@@ -1,5 +1,6 @@
 """A run that is interrupted and resumed ends with the same bits as one that is not."""
 
+import importlib
 import json
 import os
 import pickle
@@ -7,7 +8,7 @@ import shutil
 import signal
 import zipfile
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -283,3 +284,19 @@ def test_code_named_by_address_needs_trust(small: ModuleType, tmp_path: Path) ->
         resume(path, threads=1)
     with pytest.raises(KeyboardInterrupt):
         resume(path, threads=1, trusted=True, hooks=[small.At(10, interrupt)])
+
+
+def test_a_run_that_has_not_begun_claims_no_file(
+    small: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Refused(SimpleNamespace):
+        def run(self, hooks: object) -> None:
+            raise RuntimeError("not yet")
+
+    (tmp_path / "old.nc").write_bytes(b"another run")
+    module = importlib.import_module("sphframe.simulation.run")
+    monkeypatch.setattr(module, "Simulation", lambda *_, **__: Refused(time=0.0))
+    with pytest.raises(RuntimeError, match="not yet") as error:
+        run(small.small_case(2), output=tmp_path / "old.nc", overwrite=True, progress=False)
+    assert not getattr(error.value, "__notes__", [])
+    assert (tmp_path / "old.nc").read_bytes() == b"another run"
