@@ -164,8 +164,8 @@ def chosen(rooms: list[str], seed: int, count: int, skip: int) -> list[tuple[Mut
 class Copy:
     """A copy of the repository in ``folder``, with a cache of its compiled loops."""
 
-    def __init__(self, folder: Path, *, plain: bool) -> None:
-        self.tree, self._folder, self._cache, self._plain = folder / "tree", folder, folder / "cache", plain
+    def __init__(self, folder: Path) -> None:
+        self.tree, self._folder, self._cache = folder / "tree", folder, folder / "cache"
         listed = subprocess.run(
             ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True,
             check=True, text=True,
@@ -191,10 +191,7 @@ class Copy:
             os.utime(path, ns=(stamp.st_atime_ns, stamp.st_mtime_ns))
             self._forget(room)
         failed = [line for line in output.splitlines() if line.startswith(("FAILED", "ERROR"))]
-        by = (failed or [output.strip()[-120:]])[0]
-        if code is None or (code and self._plain and not re.search(r" - (AssertionError|assert)", by)):
-            return UNDECIDED, by
-        return (KILLED if code else SURVIVED), by
+        return (UNDECIDED if code is None else KILLED if code else SURVIVED), (failed or [output.strip()[-120:]])[0]
 
     def run(self, tests: list[str], limit: float | None) -> tuple[int | None, str]:
         """Run ``tests`` until the first fails; return the exit code, None if it took too long, and what they print."""
@@ -204,14 +201,10 @@ class Copy:
             "PYTHONPYCACHEPREFIX": str(self._folder / "byte-code"),
         }  # fmt: skip
         environment.pop("PYTHONDONTWRITEBYTECODE", None)
-        plain = []
-        if self._plain:  # in which NumPy warns, and an index out of bounds is an error
-            environment |= {"NUMBA_DISABLE_JIT": "1", "COLUMNS": "300"}
-            plain = ["-W", "ignore::RuntimeWarning", "-k", "not matrices_are_inverted"]
         command = [
             sys.executable, "-m", "pytest", "-x", "-q", "-p", "mutants", "-p", "no:cacheprovider", "-p", "no:xdist",
             "-p", "no:benchmark", "--tb=line", "-o", "addopts=--import-mode=importlib", "-m",
-            "not slow and not long", *plain, *tests,
+            "not slow and not long", *tests,
         ]  # fmt: skip
         try:
             done = subprocess.run(
@@ -231,8 +224,6 @@ class Copy:
         files = [test for path in paths for test in (sorted(path.glob("test_*.py")) if path.is_dir() else [path])]
         files.sort(key=lambda test: not named.search(test.read_text()))
         files.sort(key=lambda test: module not in test.stem)
-        if self._plain and room in ("physics", "boundary", "neighbours", "simulation"):
-            files.sort(key=lambda test: test.stem != "test_plain")  # the quickest as plain Python
         return list(map(str, files))
 
     def _forget(self, room: str) -> None:
@@ -277,7 +268,6 @@ def main() -> None:
     parser.add_argument("rooms", nargs="*", help=f"of {', '.join(ROOMS)}; by default all")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=10, help="random mutants of each room")
-    parser.add_argument("--plain", action="store_true", help="run all loops as plain Python: only assertions decide")
     parser.add_argument("--skip", type=int, default=0, help="leave out the first ones of each room, to go on")
     parser.add_argument("--limit", type=float, default=900.0, help="for the tests of one mutant, s")
     parser.add_argument("--only", action="append", default=[], help="key of a mutant, instead of random ones")
@@ -289,7 +279,7 @@ def main() -> None:
         todo = chosen(options.rooms or list(ROOMS), options.seed, options.count, options.skip)
     equivalents = tomllib.loads((HERE / "equivalents.toml").read_text())
     folder = Path(os.environ.get("SPHFRAME_MUTATION_CACHE") or tempfile.mkdtemp(prefix="sphframe-mutants-"))
-    place = Copy(folder, plain=options.plain)
+    place = Copy(folder)
     score: dict[str, list[str]] = {}
     killers = set()
     for mutant, source in todo:
