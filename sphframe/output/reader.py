@@ -40,6 +40,8 @@ def open_dataset(path: str | os.PathLike[str]) -> "xr.Dataset":
     """
     import xarray as xr  # slower to import than all of sphframe, and a run does not need it to start
 
+    import sphframe.output.accessor  # noqa: F401
+
     path = Path(path)
     if not path.exists():
         raise InputError(f"{path} does not exist: check the name, or write it with sphframe run CASE --output {path}")
@@ -87,9 +89,7 @@ def prepared(dataset: "xr.Dataset", name: str = "the dataset") -> "xr.Dataset":
         return dataset
     _check(dataset, name)
     try:
-        last_values = [dataset["particle_mass"][-1]]
-        if dataset.sizes["time"]:
-            last_values.append(dataset["density"][-1, -1])
+        last_values = [dataset["particle_mass"][-1], *([dataset["density"][-1, -1]] if dataset.sizes["time"] else [])]
         whole = all(float(value) != 0.0 for value in last_values)  # what lies beyond the end is read as zero
     except (OSError, RuntimeError):
         whole = False

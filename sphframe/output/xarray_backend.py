@@ -1,19 +1,17 @@
 """Output: files of runs in xarray: ``xarray.open_dataset(FILE, engine="sphframe")``, and the accessor ``dataset.sph``.
 
-xarray imports this module when it opens the first dataset, whatever its engine: so the accessor is there, and here
-nothing is imported that takes long.
+xarray imports this module when it opens the first dataset and is not told the engine: so the accessor is there, and
+here nothing is imported that takes long.
 """
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, final
+from typing import Any, final
 
 import xarray as xr
 from xarray.backends import BackendEntrypoint
 
+import sphframe.output.accessor  # noqa: F401
 from sphframe.output.reader import open_dataset
-
-if TYPE_CHECKING:
-    from sphframe.analysis.accessor import SphAccessor
 
 
 @final
@@ -28,10 +26,3 @@ class SphframeBackend(BackendEntrypoint):
         """Open the file with what has been written so far."""
         names = [drop_variables] if isinstance(drop_variables, str) else drop_variables or ()
         return open_dataset(filename_or_obj).drop_vars(names, errors="ignore")
-
-
-@xr.register_dataset_accessor("sph")  # type: ignore[no-untyped-call, untyped-decorator]
-def _accessor(dataset: xr.Dataset) -> "SphAccessor":
-    from sphframe.analysis.accessor import SphAccessor
-
-    return SphAccessor(dataset)

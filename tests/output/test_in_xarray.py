@@ -75,8 +75,9 @@ def test_zarr(path: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", ["complete"], indirect=True)
-def test_the_accessor_needs_no_import_of_sphframe(path: Path) -> None:
-    program = f"import xarray; d = xarray.open_dataset({str(path)!r}); print(d.sph.summary()['steps'])"
+@pytest.mark.parametrize("module", ["xarray", "sphframe"])
+def test_the_accessor_needs_no_further_import(path: Path, module: str) -> None:
+    program = f"import {module}; d = {module}.open_dataset({str(path)!r}); print(d.sph.summary()['steps'])"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert int(done.stdout) > 1
 
