@@ -189,11 +189,11 @@ class CudaSystem(FluidSystem):
         return LargestMotion(*self._largest_motion(self.rows, self.lists.position, self.columns.dim))
 
     def neighbours_remain_valid(self, motion: LargestMotion, interval: float) -> bool:
-        """Return whether the lists stay complete; positions are fetched only where walls move."""
+        """Return whether the lists stay complete; the positions of the fluid count by its largest motion alone."""
         ahead, boundary = motion.displacement + motion.speed * interval, self.boundary
         if 2.0 * ahead > self.lists.skin or not boundary.bodies:
             return 2.0 * ahead <= self.lists.skin
-        rows = self._present_positions(self._positions())
+        rows = self._present_positions(np.empty(self._places.shape))
         return self.lists.remain_valid(rows, boundary.points, motion, wall_speed=boundary.speed, interval=interval)
 
     def keep(self, kept: Any) -> None:
