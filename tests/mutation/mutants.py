@@ -52,7 +52,6 @@ SWAPPED = {
     ast.In: ast.NotIn, ast.NotIn: ast.In,  # codespell:ignore
 }  # fmt: skip
 KILLED, SURVIVED, UNDECIDED = "killed", "SURVIVED", "UNDECIDED"
-_order: dict[str, int] = {}
 
 
 class Mutant(NamedTuple):
@@ -251,15 +250,12 @@ def pytest_collection() -> None:
     settings.load_profile("first-failure")
 
 
-def pytest_itemcollected(item: Any) -> None:
-    """As a plugin of pytest: keep the order in which the files were named; another hook puts slow files first."""
-    _order.setdefault(str(item.path), len(_order))
-
-
-@pytest.hookimpl(trylast=True)
-def pytest_collection_modifyitems(items: list[Any]) -> None:
-    """As a plugin of pytest: the files in the order in which they were named; another hook puts slow ones first."""
-    items.sort(key=lambda item: _order[str(item.path)])
+@pytest.hookimpl(wrapper=True)
+def pytest_collection_modifyitems(items: list[Any]) -> Iterator[None]:
+    """As a plugin of pytest: keep the order in which files were named; another hook puts slow ones first."""
+    place = {item: k for k, item in enumerate(items)}
+    yield
+    items.sort(key=place.__getitem__)
 
 
 def main() -> None:
