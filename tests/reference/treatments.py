@@ -112,11 +112,16 @@ def adami_2012(s: "Plain") -> Assigned:
     return Assigned(lifted(s, phi, around), s.walls.u, viscous=2.0 * s.walls.u - phi @ s.u)
 
 
+def fitted(s: "Plain", points: Array, method: Callable[[Around], Array]) -> Assigned:
+    """Pressure by a method at points, lifted where it has no weights; the velocity of the wall."""
+    around = s.around(points)
+    phi, fine = usable(method(around), around)
+    return Assigned(np.where(fine, phi @ s.p, lifted(s, phi, around)), s.walls.u)
+
+
 def mdbc_2022(s: "Plain") -> Assigned:
     """Pressure extrapolated from the mirror point; the velocity of the wall."""
-    around = s.around(s.walls.mirror)
-    phi, fine = usable(extrapolated(around), around)
-    return Assigned(np.where(fine, phi @ s.p, lifted(s, phi, around)), s.walls.u)
+    return fitted(s, s.walls.mirror, extrapolated)
 
 
 def mdbc_2025(s: "Plain") -> Assigned:
@@ -134,9 +139,7 @@ def mdbc_2025(s: "Plain") -> Assigned:
 
 def band_2018(s: "Plain") -> Assigned:
     """The linear fit at the ghost; the velocity of the wall."""
-    around = s.around(s.walls.ghost)
-    phi, fine = usable(linear_least_squares(around), around)
-    return Assigned(np.where(fine, phi @ s.p, lifted(s, phi, around)), s.walls.u)
+    return fitted(s, s.walls.ghost, linear_least_squares)
 
 
 def hashemi_2012(s: "Plain") -> Assigned:
