@@ -377,25 +377,30 @@ def condition(cloud: Cloud, degree: int) -> float:
     return max(worst, _squared(about[away] * np.sqrt(_gaussian(squares[away]) / squares[away])[:, None]))
 
 
-def magnification(cloud: Cloud, degree: int) -> float:
+def magnification(cloud: Cloud, degree: int, *, at_ghost: bool = False) -> float:
     """Return sum |w_j| of a least-squares fit of a polynomial to the neighbours, with Gaussian weights.
 
     It is the magnification of noise by extrapolation: 1 in the middle of a symmetric neighbourhood, large far outside a
-    neighbourhood.
+    neighbourhood. The fit is evaluated at the point or, for methods that extrapolate, ``at_ghost``.
     """
     _, basis, weights = _polynomials(cloud, degree)
     roots = np.sqrt(weights)
-    constant = cloud.dim  # the column of the constant, whose coefficient is the fitted value at the point
-    return float(np.abs(np.linalg.pinv(basis * roots[:, None])[constant] * roots).sum())
+    place = _monomials(cloud.lift[None, :] / cloud.support * at_ghost, degree)[0]
+    return float(np.abs(place @ np.linalg.pinv(basis * roots[:, None]) * roots).sum())
 
 
 def _polynomials(cloud: Cloud, degree: int) -> tuple[Array, Array, Array]:
     """Return offsets over the support (n, dim), monomials (n, terms) and Gaussian weights (n,) of the neighbours."""
     x = cloud.offsets / cloud.support
+    return x, _monomials(x, degree), _gaussian(np.sum(x**2, axis=1)) * cloud.volumes / cloud.volumes.max()
+
+
+def _monomials(x: Array, degree: int) -> Array:
+    """Return those of degree 1, 0 and 2 at places (n, dim) as columns (n, terms)."""
     columns = [*x.T, np.ones(len(x))]
     if degree == 2:
-        columns += [x[:, a] * x[:, b] for a in range(cloud.dim) for b in range(a + 1)]
-    return x, np.column_stack(columns), _gaussian(np.sum(x**2, axis=1)) * cloud.volumes / cloud.volumes.max()
+        columns += [x[:, a] * x[:, b] for a in range(x.shape[1]) for b in range(a + 1)]
+    return np.column_stack(columns)
 
 
 def _gaussian(squares: Array) -> Array:

@@ -234,4 +234,7 @@ def test_magnification_increases_with_extrapolation():
     assert magnification(inside, 1) == pytest.approx(1.0)
     two = Cloud([[1.0, -0.5], [1.0, 0.5], [2.0, -0.5], [2.0, 0.5]], np.ones(4), 30.0)  # weights nearly equal
     assert magnification(two, 1) == pytest.approx(3.0, rel=0.05)  # 2 f(1) - f(2)
+    assert magnification(two, 1, at_ghost=True) == magnification(two, 1), "the ghost is at the point"
+    lifted = Cloud(two.offsets, np.ones(4), 30.0, lift=[-1.0, 0.0])
+    assert magnification(lifted, 1, at_ghost=True) == pytest.approx(5.0, rel=0.05)  # 3 f(1) - 2 f(2)
     assert magnification(two, 1) < magnification(Cloud(two.offsets + np.array([1.0, 0.0]), np.ones(4), 30.0), 1)

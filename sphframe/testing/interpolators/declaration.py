@@ -14,6 +14,8 @@ WELL_PLACED = 2.0
 """largest sum of |weights| of a quadratic fit for which a method must return OK"""
 AROUND = 1.2
 """the same of a linear fit, for few neighbours: the particles are on all sides of the point"""
+EXTRAPOLATED = 5.0
+"""the same of a linear fit that is evaluated at the ghost: methods that extrapolate may refuse to magnify noise more"""
 NEAR = 0.75
 """distance over the support up to which a neighbour counts for a linear fit: the kernel hardly counts others"""
 
@@ -88,18 +90,9 @@ def check_fewest_points(method: BoundaryInterpolator, dim: int) -> None:
 
     prove(method, dim, "the status must not be OK for fewer neighbours than fewest_points", wrong_with)
 
-    degree = method.traits.reproduces_degree
-    convex = method.traits.non_negative and degree > 0  # there are no such weights outside the hull of the particles
-
     def refused(cloud: Cloud) -> str | None:
         outcome = run(cloud)
-        if outcome.status == OK or len(cloud) < fewest:
-            return None
-        quadratic = len(cloud) >= 3 * fewest and condition(cloud, 2) < 1e5 and magnification(cloud, 2) < WELL_PLACED
-        near = cloud.members(np.flatnonzero(cloud.distances < NEAR * cloud.support))
-        several = degree <= 1 and len(near) >= 2 * fewest  # with fewer, the weights of the kernel decide
-        around = several and condition(near, 1) < 1e3 and magnification(near, 1) < AROUND
-        if (quadratic or around) and not (convex and _beside(cloud)):
+        if outcome.status != OK and len(cloud) >= fewest and _well_placed(method, cloud):
             return f"the status is {status_name(outcome)} with {len(cloud)} well-placed neighbours"
         return None
 
@@ -110,6 +103,24 @@ def check_fewest_points(method: BoundaryInterpolator, dim: int) -> None:
             complaint = refused(cloud)
             if complaint:
                 raise broken(method, dim, f"the status must be OK for a well-placed neighbourhood; {complaint}", cloud)
+
+
+def _well_placed(method: BoundaryInterpolator, cloud: Cloud) -> bool:
+    """Whether the neighbours surely determine the weights of a method of its kind, without much noise."""
+    traits, fewest = method.traits, method.traits.fewest_points[cloud.dim - 2]
+    extrapolates = traits.evaluation_point is EvaluationPoint.EXTRAPOLATED
+    near = cloud.members(np.flatnonzero(cloud.distances < NEAR * cloud.support))
+
+    def fits(part: Cloud, degree: int, largest_condition: float, most: float) -> bool:
+        if condition(part, degree) > largest_condition or magnification(part, degree) > most:
+            return False
+        return not extrapolates or magnification(part, 1, at_ghost=True) < EXTRAPOLATED
+
+    placed = len(cloud) >= 3 * fewest and fits(cloud, 2, 1e5, WELL_PLACED)
+    if not placed and traits.reproduces_degree <= 1 and len(near) >= 2 * fewest:  # with fewer, the kernel decides
+        placed = fits(near, 1, 1e3, AROUND)
+    convex = traits.non_negative and traits.reproduces_degree > 0  # no such weights outside the hull of the particles
+    return placed and not (convex and _beside(cloud))
 
 
 def _beside(cloud: Cloud) -> bool:
