@@ -1,7 +1,7 @@
 """Boundary: fills the ghosts from the fluid, or makes its images, by compiled loops, which need scratch memory."""
 
 from collections.abc import Callable, Mapping
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -23,8 +23,6 @@ from sphframe.interfaces import (
 from sphframe.neighbours import NeighbourLists
 from sphframe.physics import LoopParameters
 
-Tension = Literal["none", "bounded", "free"]
-
 
 class Filling:
     """Interpolates the fluid to the evaluation points and assigns velocity, pressure and density of the ghosts.
@@ -37,8 +35,6 @@ class Filling:
         the compiled parts of the loops, by name; ``walls`` the functions of the treatment.
     velocity_interpolator
         another method for the velocities.
-    tension
-        see :mod:`sphframe.boundary.ghosts`; ``lowest_pressure``, Pa, of bounded tension.
     compile_loop
         makes the loops, as :func:`~sphframe.compiled.specialise` does; ``make_scratch`` their memory.
     """
@@ -51,8 +47,6 @@ class Filling:
         walls: WallParts,
         *,
         velocity_interpolator: BoundaryInterpolator | None = None,
-        tension: Tension = "bounded",
-        lowest_pressure: float = 0.0,
         compile_loop: Callable[..., Callable[..., None]] = specialise,
         make_scratch: Callable[[int, int], Scratch] = Scratch.of,
     ) -> None:
@@ -60,9 +54,6 @@ class Filling:
         bound = {
             **parts,
             "INTERPOLATES": interpolator is not None,
-            "FADES": tension == "none" and interpolator is not None,
-            "BOUNDED": tension != "free",
-            "LOWEST": lowest_pressure if tension == "bounded" else 0.0,
             "ASSIGN": walls.assign or _at_rest,
             "VELOCITIES": walls.uses_velocity,
         }
@@ -102,13 +93,10 @@ class Filling:
 class ImageFilling:
     """Makes the images of the fluid in the walls, which take the place of ghosts; arguments as of :class:`Filling`."""
 
-    def __init__(
-        self, parts: Mapping[str, Any], walls: WallParts, *, tension: Tension = "bounded", lowest_pressure: float = 0.0
-    ) -> None:
+    def __init__(self, parts: Mapping[str, Any], walls: WallParts) -> None:
         self._dim: int = parts["DIM"]
-        lowest = lowest_pressure if tension == "bounded" else 0.0
-        bounds = {"SLOTS": most_images(self._dim), "BOUNDED": tension != "free", "LOWEST": lowest}
-        self._make = specialise(make_images, {**parts, **bounds, "ASSIGN": walls.assign or _at_rest})
+        bound = {"SLOTS": most_images(self._dim), "ASSIGN": walls.assign or _at_rest}
+        self._make = specialise(make_images, {**parts, **bound})
 
     def __call__(self, rows: Array, lists: NeighbourLists, boundary: Boundary, parameters: LoopParameters) -> None:
         """Make the images of the fluid in ``rows`` (n + g, width) in ``boundary``."""

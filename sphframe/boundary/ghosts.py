@@ -43,13 +43,10 @@ BY_KERNEL = True
 VELOCITY_WEIGHTS = VELOCITY_FALLBACK = WEIGHTS
 VELOCITIES = True
 """whether the treatment uses the fluid's velocity; else those of EXTRAPOLATED weights are not computed again"""
-BOUNDED, FADES = True, False
-LOWEST = 0.0
-"""lowest pressure of a ghost where it is BOUNDED, Pa"""
 SEEN_ENOUGH = 0.05
 """filling of the evaluation point in the midst of the fluid below which it says nothing, far behind a wall"""
 FADED = 0.35
-"""filling at the evaluation point, over that in the midst of the fluid, at which a ghost that FADES has no share"""
+"""filling at the evaluation point, over that in the midst of the fluid, at which a ghost that fades has no share"""
 PRESSED = 0.01
 """pressure of a ghost, over rho0 c0^2, from which it does not fade: water that presses on a wall needs it"""
 
@@ -110,7 +107,7 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
     support = parameters.support
     limit = support * support
     per_h = SUPPORT / support
-    pressing = PRESSED * parameters.reference_density * parameters.sound_speed**2
+    fades = INTERPOLATES and parameters.fading_pressure > 0.0
     count = ghosts.shape[0]
     chunks = scratch.offsets.shape[0]
     blocks = -(-count // BLOCK)
@@ -159,9 +156,10 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                         n += 1 if r2 < limit else 0  # else it is overwritten: faster than a branch
                     for k in range(n):
                         distances[k] = math.sqrt(distances[k])
-                    if BY_KERNEL or FADES:
+                    if BY_KERNEL or fades:
                         for k in range(n):
                             values[k] = parameters.kernel_scale * VALUE(distances[k] * per_h)
+                    around = offsets[:n], distances[:n], values[:n], volumes[:n]
                     if n > 0:
                         for d in range(DIM):
                             lift[d] = 0.0
@@ -169,23 +167,19 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                                 lift[d] = lifts[g, d]
                             if DIRECTED:
                                 lift[d] = walls.normal[g, d]
-                        status = WEIGHTS(
-                            offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n]
-                        )  # fmt: skip
+                        status = WEIGHTS(*around, support, lift, weights[:n])
                         if status != OK:
-                            if not (BY_KERNEL or FADES):
+                            if not (BY_KERNEL or fades):
                                 for k in range(n):
                                     values[k] = parameters.kernel_scale * VALUE(distances[k] * per_h)
-                            FALLBACK(offsets[:n], distances[:n], values[:n], volumes[:n], support, lift, weights[:n])
+                            FALLBACK(*around, support, lift, weights[:n])
                         elif EXTRAPOLATED:
                             for k in range(n):
                                 extrapolated += weights[k] * rows[members[k], COLUMNS.pressure]
                             for d in range(DIM):
                                 lift[d] = 0.0
-                            if VELOCITIES:
-                                around = offsets[:n], distances[:n], values[:n], volumes[:n]
-                                if WEIGHTS(*around, support, lift, weights[:n]) != OK:
-                                    FALLBACK(*around, support, lift, weights[:n])
+                            if VELOCITIES and WEIGHTS(*around, support, lift, weights[:n]) != OK:
+                                FALLBACK(*around, support, lift, weights[:n])
                 statuses[g] = status
 
                 total = 0.0
@@ -204,7 +198,6 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                     for d in range(DIM):
                         lift[d] = walls.normal[g, d] if DIRECTED else 0.0
                         mean_velocity[d] = 0.0
-                    around = offsets[:n], distances[:n], values[:n], volumes[:n]
                     if VELOCITY_WEIGHTS(*around, support, lift, weights[:n]) != OK:
                         VELOCITY_FALLBACK(*around, support, lift, weights[:n])
                     for k in range(n):
@@ -219,14 +212,13 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                 wall = wall_point(walls, lifts, g)
                 velocity = rows[row, COLUMNS.u : COLUMNS.u + DIM]
                 pressure, share = ASSIGN(fluid, wall, parameters, velocity, walls.viscous_velocity[g])
-                if FADES and walls.full[g] > SEEN_ENOUGH:
+                if fades and walls.full[g] > SEEN_ENOUGH:
                     filling = 0.0
                     for k in range(n):
                         filling += values[k] * volumes[k]
                     filled = _step((filling / walls.full[g] - FADED) / (1.0 - 2.0 * FADED))
-                    share *= max(filled, _step(pressure / pressing))
-                if BOUNDED:
-                    pressure = max(pressure, LOWEST)
+                    share *= max(filled, _step(pressure / parameters.fading_pressure))
+                pressure = max(pressure, parameters.lowest_pressure)
                 rows[row, COLUMNS.volume] = share * walls.volume[g]
                 rows[row, COLUMNS.density] = DENSITY(pressure, parameters.reference_density, parameters.sound_speed)
                 rows[row, COLUMNS.pressure] = pressure

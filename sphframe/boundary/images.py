@@ -29,11 +29,6 @@ from sphframe.particles import Columns
 _FARTHEST = 0.8
 """largest distance of m from the nearest foot, dx"""
 
-# parts bound by specialise()
-BOUNDED = True
-LOWEST = 0.0
-"""lowest pressure of an image where it is BOUNDED, Pa"""
-
 
 def most_images(dim: int) -> int:
     """Return how many images a particle can have: in the faces, edges and corners of a box less wide than the support.
@@ -163,8 +158,7 @@ def make_images(  # type: ignore[no-untyped-def]
                     image_rows[row, :DIM], walls.number[g],
                 )  # fmt: skip
                 pressure, share = ASSIGN(source, wall, parameters, velocity, unused)
-                if BOUNDED:
-                    pressure = max(pressure, LOWEST)
+                pressure = max(pressure, parameters.lowest_pressure)
                 image_rows[row, COLUMNS.volume] = share * rows[i, COLUMNS.volume]
                 image_rows[row, COLUMNS.density] = DENSITY(
                     pressure, parameters.reference_density, parameters.sound_speed

@@ -38,6 +38,8 @@ class LoopParameters(NamedTuple):
         particle spacing dx, m.
     depth
         greatest depth of still water, m.
+    lowest_pressure, fading_pressure
+        of wall particles, Pa: p_0, -inf where tension is free, and p_1, 0 without fading (`boundary/ghosts.py`).
     period_x, period_y, period_z
         length of each direction that repeats itself, m, else 0; ``per_period_x``,
         ``per_period_y``, ``per_period_z``: their inverses, else 0. Parallel loops take no tuples within tuples.
@@ -55,6 +57,8 @@ class LoopParameters(NamedTuple):
     friction: float
     spacing: float
     depth: float
+    lowest_pressure: float = 0.0
+    fading_pressure: float = 0.0
     period_x: float = 0.0
     period_y: float = 0.0
     period_z: float = 0.0

@@ -1,5 +1,6 @@
 """Simulation: the system at the start of a case: particles on their lattice, ghosts, and the pressure at rest."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
@@ -8,6 +9,7 @@ import numpy as np
 
 from sphframe.arrays import Array, IntArray
 from sphframe.boundary.boundary import Boundary
+from sphframe.boundary.ghosts import PRESSED
 from sphframe.boundary.wall_states import WallStates
 from sphframe.cases import Case, Scene
 from sphframe.compiled import LANES, specialise
@@ -30,7 +32,7 @@ from sphframe.simulation.system import FluidSystem
 
 def loop_parameters(case: Case, scene: Scene, components: Components) -> LoopParameters:
     """Return the parameters of the loops for ``case``, whose ``scene`` gives the depth of water."""
-    return LoopParameters.of(
+    parameters = LoopParameters.of(
         components.compiled_kernel,
         case.dimension,
         smoothing_length=case.smoothing_length_ratio * case.particle_spacing,
@@ -45,6 +47,9 @@ def loop_parameters(case: Case, scene: Scene, components: Components) -> LoopPar
         depth=scene.depth,
         period=Periods.of(case.periodic, scene.domain).length.tolist(),
     )
+    lowest = {"none": 0.0, "bounded": case.lowest_pressure, "free": -math.inf}[case.tension]
+    fading = PRESSED * parameters.reference_density * parameters.sound_speed**2 if case.tension == "none" else 0.0
+    return parameters._replace(lowest_pressure=lowest, fading_pressure=fading)
 
 
 @dataclass(frozen=True)
@@ -128,7 +133,7 @@ def initial_system(
         shifting=Shifting.of_case(case, components.wall_treatment, parts), compile_loop=kind.specialise,
     )  # fmt: skip
     states = WallStates(boundary, components.walls.rate, components.parts)
-    filling = initial_filling(case, components, compile_loop=kind.specialise, make_scratch=kind.make_scratch)
+    filling = initial_filling(components, compile_loop=kind.specialise, make_scratch=kind.make_scratch)
     driving = Driving(parameters, dim, components.body_force, scene.sources)
     system = kind(rows, boundary, filling, lists, loops, states, parts, parameters, contacts, driving, channel)
     system.make_room(components.integrator.memory)

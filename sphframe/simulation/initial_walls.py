@@ -65,22 +65,14 @@ def _check_thick(boundary: Boundary) -> None:
         )
 
 
-def initial_filling(case: Case, components: Components, **memory: Callable[..., Any]) -> Filling | ImageFilling:
+def initial_filling(components: Components, **memory: Callable[..., Any]) -> Filling | ImageFilling:
     """Return the loop that fills the wall particles; ``memory``: how :class:`Filling` compiles it, and its scratch."""
     if components.wall_treatment.geometry is WallGeometry.IMAGES:
-        return ImageFilling(
-            components.parts, components.walls, tension=case.tension, lowest_pressure=case.lowest_pressure
-        )
+        return ImageFilling(components.parts, components.walls)
     return Filling(
-        components.interpolator,
-        components.compiled_kernel,
-        components.parts,
-        components.walls,
-        velocity_interpolator=components.velocity_interpolator,
-        tension=case.tension,
-        lowest_pressure=case.lowest_pressure,
-        **memory,
-    )
+        components.interpolator, components.compiled_kernel, components.parts, components.walls,
+        velocity_interpolator=components.velocity_interpolator, **memory,
+    )  # fmt: skip
 
 
 def hydrostatic_densities(
@@ -97,5 +89,4 @@ def hydrostatic_densities(
     found = np.maximum(pressure[nearest] + lift, 0.0)
     rows[:, columns.pressure] = np.where(distance > parameters.support, 0.0, found)
     specialise(invert_pressure, components.parts, parallel=False)(rows, boundary.count, parameters)
-    density: Array = rows[:, columns.density]
-    return density
+    return np.asarray(rows[:, columns.density])
