@@ -100,9 +100,10 @@ def test_the_place_of_the_border_does_not_matter():
     assert np.allclose(one.sample(points), other.sample((points + shift * ALONG) % [LENGTH, 10.0]), rtol=1e-8)
 
 
+@pytest.mark.parametrize("threads", [1, pytest.param(2, marks=pytest.mark.long)])
 @pytest.mark.parametrize("make", [without_walls, channel])
-def test_threads_and_a_saved_state_keep_the_bits(make):
-    one, two = (stirred(make(), threads=threads) for threads in (1, 2))
+def test_threads_and_a_saved_state_keep_the_bits(make, threads):
+    one, two = (stirred(make(), threads=count) for count in (1, threads))
     assert np.array_equal(one.system.rows, two.system.rows)
     continued = Simulation(make(), threads=1)
     continued.restore(one.state())

@@ -205,11 +205,11 @@ def test_tensile_control_takes_differences_where_the_pressure_is_negative() -> N
     np.testing.assert_allclose(rates[1] - rates[0], change[np.argsort(system.ids)], atol=1e-9 * np.abs(change).max())
 
 
-def test_the_same_bits_with_threads_and_after_a_restart() -> None:
+@pytest.mark.parametrize("threads", [1, pytest.param(2, marks=pytest.mark.long)])
+def test_the_same_bits_with_threads_and_after_a_restart(threads: int) -> None:
     case = tank(tensile_control="on", acceleration=[2.0, 0.0])
     states = []
-    threads = min(2, numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
-    for count in (1, threads):
+    for count in (1, min(threads, numba.config.NUMBA_NUM_THREADS)):  # type: ignore[attr-defined]
         simulation = Simulation(case, threads=count)
         for _ in range(10):
             simulation.advance()

@@ -1,4 +1,4 @@
-"""Every wall treatment runs with the same bits on any number of threads, and continues from a state to the bit.
+"""Every wall treatment continues from a state to the bit; in long tests, with the same bits on any number of threads.
 
 Without tension, none holds water up: films under a ceiling fall, contact lines stay, nothing hangs on walls. All these
 cases have the parameters of ``SMALL``, so that the loops of a treatment are compiled once; the viscosity is that of
@@ -23,13 +23,11 @@ REPELLING = ("lennard-jones", "monaghan-kajtar-2009")
 
 
 MOST = numba.config.NUMBA_NUM_THREADS
-ON_THREADS = ("fixed-ghosts",)
-"""a long test has all"""
 CLASSES = ("fixed-ghosts", "dynamic-2007", "mirror-images", "pair-mirror")
 """treatments whose walls are ghosts that are filled, particles with a state, images, and seen by each pair"""
 PLAIN, FREE, IN_SPACE = {}, {"tension": "free"}, {"dimension": 3}
 VARIANTS = [
-    *((name, PLAIN) for name in TREATMENTS if name not in ON_THREADS),
+    *((name, PLAIN) for name in TREATMENTS),
     *((name, IN_SPACE) for name in ("fixed-ghosts", "dynamic-2007", "lennard-jones", "mirror-images", "pair-mirror")),
     *((name, FREE) for name in ("fixed-ghosts", "edge-integrals", "mirror-images", "pair-mirror")),
     *((name, {"slip": "free"}) for name in ("fixed-ghosts", "mdbc-2025", "riemann-2017", "usaw-2013")),
@@ -76,16 +74,11 @@ def run_and_continue(treatment, integrator, threads, changes):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("treatment", "integrator", "threads"),
-    [
-        *((name, "symplectic", MOST) for name in ON_THREADS),
-        *((name, "symplectic", 1) for name in TREATMENTS if name not in ON_THREADS),
-        ("pair-mirror", "rk4", 1),
-        ("dynamic-2007", "rk4", 1),
-    ],
+    ("treatment", "integrator"),
+    [*((name, "symplectic") for name in TREATMENTS), ("pair-mirror", "rk4"), ("dynamic-2007", "rk4")],
 )
-def test_runs_continue_to_the_bit_on_any_number_of_threads(treatment, integrator, threads):
-    run_and_continue(treatment, integrator, threads, PLAIN if treatment in CLASSES else FREE)
+def test_runs_continue_to_the_bit(treatment, integrator):
+    run_and_continue(treatment, integrator, 1, PLAIN if treatment in CLASSES else FREE)
 
 
 @pytest.mark.long
