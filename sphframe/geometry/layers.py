@@ -161,8 +161,9 @@ def _corrected(position: Array, volume: Array, domain: Domain, spacing: float, l
     solid = shapely.difference(_grown(domain, layers * spacing), domain.region)
     own = _behind_walls(position, domain, 1.5 * layers * spacing, 0.0)
     free = np.zeros(len(position), dtype=np.bool_)
+    nearest = _NearestParts(solid)
     for sweep in range(12):
-        parts = _nearest_parts(position, solid)
+        parts = nearest.to(position)
         areas = shapely.area(parts)
         free |= own & (np.abs(areas - volume) > _DEVIATION * np.maximum(volume, 0.1 * spacing**2))
         volume = np.where(free, areas, volume)
@@ -176,26 +177,55 @@ def _corrected(position: Array, volume: Array, domain: Domain, spacing: float, l
             break
         position, volume = np.vstack([position, new]), np.concatenate([volume, np.zeros(len(new))])
         free, own = (np.concatenate([flags, np.ones(len(new), dtype=np.bool_)]) for flags in (free, own))
-    areas = shapely.area(_nearest_parts(position, solid))
+    areas = shapely.area(nearest.to(position))
     return position, np.where(free, areas, volume)
 
 
-def _nearest_parts(position: Array, solid: shapely.Geometry) -> Array:
-    """Return for each position (g, 2) the part of the ``solid`` that is nearest to it."""
-    low, high = position.min(axis=0), position.max(axis=0)
-    far = np.max(high - low) + 1.0
-    around = np.array([low - far, high + far, [low[0] - far, high[1] + far], [high[0] + far, low[1] - far]])
-    cells = Voronoi(np.vstack([position, around]))
-    polygons = [shapely.Polygon(cells.vertices[cells.regions[cells.point_region[k]]]) for k in range(len(position))]
-    parts: Array = shapely.intersection(np.array(polygons, dtype=object), solid)
-    return parts
+class _NearestParts:
+    """The parts of a ``solid`` that are nearest to points, some of which move and to which others are added."""
+
+    def __init__(self, solid: shapely.Geometry) -> None:
+        self._solid, self._pieces = solid, shapely.STRtree(shapely.get_parts(solid))
+        self._position, self._parts = np.empty((0, 2)), np.empty(0, dtype=object)
+        self._neighbours = np.empty((0, 2), dtype=np.int64)
+
+    def to(self, position: Array) -> Array:
+        """Return the part nearest to each position (g, 2); the first of them are those of the last call, in order.
+
+        A cell of the Voronoi diagram changes only if its point or that of a neighbour, before or after, has moved.
+        """
+        if np.array_equal(position, self._position):
+            return self._parts
+        low, high = position.min(axis=0), position.max(axis=0)
+        far = np.max(high - low) + 1.0
+        around = np.array([low - far, high + far, [low[0] - far, high[1] + far], [high[0] + far, low[1] - far]])
+        cells = Voronoi(np.vstack([position, around]))
+        between = cells.ridge_points[np.all(cells.ridge_points < len(position), axis=1)]
+        moved = np.ones(len(position), dtype=np.bool_)
+        moved[: len(self._position)] = np.any(position[: len(self._position)] != self._position, axis=1)
+        pairs = np.vstack([self._neighbours, between])
+        moved[pairs[np.any(moved[pairs], axis=1)]] = True
+        regions = [cells.regions[k] for k in cells.point_region[: len(position)][moved]]
+        numbers = np.repeat(np.arange(len(regions)), [len(region) for region in regions])
+        rings = shapely.linearrings(cells.vertices[np.concatenate(regions)], indices=numbers)
+        parts = np.append(self._parts, np.empty(len(position) - len(self._parts), dtype=object))
+        parts[moved] = self._within(shapely.polygons(rings))
+        self._position, self._parts, self._neighbours = position.copy(), parts, between
+        return parts
+
+    def _within(self, cells: Array) -> Array:
+        """Return the intersection of each cell with the solid, or with the only piece of it that the cell meets."""
+        met, pieces = self._pieces.query(cells)
+        once = np.bincount(met)[met] == 1
+        solids = np.full(len(cells), self._solid, dtype=object)
+        solids[met[once]] = self._pieces.geometries[pieces[once]]
+        return np.asarray(shapely.intersection(cells, solids))
 
 
 def _middle(polygons: Array) -> Array:
     """Return a point of each polygon: its centroid if it contains it."""
     centroid = shapely.centroid(polygons)
-    middle: Array = np.where(shapely.contains(polygons, centroid), centroid, shapely.point_on_surface(polygons))
-    return middle
+    return np.asarray(np.where(shapely.contains(polygons, centroid), centroid, shapely.point_on_surface(polygons)))
 
 
 def _apart(points: Array, least: float) -> Array:
