@@ -42,11 +42,16 @@ def drive(run: Simulation, force: Swirl) -> None:
 
 
 def motion(random: np.random.Generator, dim: int, *, turns: bool = True) -> Callable[[float], Motion]:
-    """A body that drifts, turns and speeds up, and is already displaced and turned at the start."""
+    """A body that drifts, turns and speeds up, and is already displaced and turned at the start.
+
+    It is slower than half of the sound speed, above which a run stops.
+    """
     size = 3 if dim == 2 else 6
     place, rate, growth = random.normal(size=size), random.normal(size=size), 5.0 * random.normal(size=size)
+    rate = np.clip(rate, -1.5, 1.5)
     if dim == 3:  # about an axis that does not change, so that the turn is the integral of the angular velocity
         axis = random.normal(size=3)
+        axis /= np.linalg.norm(axis)
         for vector in (place, rate, growth):
             vector[3:] = axis * vector[3]
     if not turns:
