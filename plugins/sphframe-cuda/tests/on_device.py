@@ -99,7 +99,7 @@ def in_space() -> None:
 def moving() -> None:
     """A tank that moves and turns, and periods."""
     compare(moves=True)
-    compare(case=load_case("poiseuille", overrides={"particle_spacing": 0.0625}))
+    compare(case=load_case("poiseuille", overrides={"particle_spacing": 0.1}))
 
 
 def resumed() -> None:
