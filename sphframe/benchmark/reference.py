@@ -107,7 +107,7 @@ def _gradient(rows, lists, counts, per_h2, scale, gradient):  # type: ignore[no-
             gradient[i, 1] = by
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _pair(rows, i, j, per_h2, scale, viscosity):  # type: ignore[no-untyped-def]
     """Offset, weight, weight times approach, and weight times stress."""
     dx = rows[j, 0] - rows[i, 0]

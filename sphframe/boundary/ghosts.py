@@ -87,7 +87,7 @@ class Scratch(NamedTuple):
         )
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _step(t):  # type: ignore[no-untyped-def]
     """Return the smooth step S(t), 0 for t < 0 and 1 for t > 1."""
     t = min(max(t, 0.0), 1.0)

@@ -59,7 +59,7 @@ class Images(NamedTuple):
         return cls(np.empty((size, Columns.of(dim).width)), np.zeros(particles, np.int64), np.zeros(size, np.int64))
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _alike(walls, g, o, dim):  # type: ignore[no-untyped-def]
     """Whether two ghosts stand for nearly the same reflection: by less than 30 degrees, on the same side."""
     same = 0.0
@@ -71,7 +71,7 @@ def _alike(walls, g, o, dim):  # type: ignore[no-untyped-def]
     return same > dim - 1.0 and along > -0.1
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _is_face(walls, g, dim):  # type: ignore[no-untyped-def]
     """Whether a ghost stands for the reflection in a face, which reverses one direction."""
     trace = 0.0

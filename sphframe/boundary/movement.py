@@ -13,13 +13,13 @@ import math
 import numba
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _turned(x, y, cos, sin):  # type: ignore[no-untyped-def]
     """Return the vector (x, y) turned by an angle with the given cosine and sine."""
     return cos * x - sin * y, sin * x + cos * y
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _cross(a, x, y, z):  # type: ignore[no-untyped-def]
     """Return the cross product of the last three of ``a`` (6,) with (x, y, z)."""
     return a[4] * z - a[5] * y, a[5] * x - a[3] * z, a[3] * y - a[4] * x

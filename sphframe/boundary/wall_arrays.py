@@ -32,7 +32,7 @@ class WallArrays(NamedTuple):
     number: IntArray
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def wall_point(walls, lifts, g):  # type: ignore[no-untyped-def]
     """Return the :class:`WallPoint` of wall particle ``g``; ``lifts`` (g, dim) lead from the evaluation points, m."""
     return WallPoint(

@@ -4,13 +4,13 @@ import numba
 import numpy as np
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def whole(x):  # type: ignore[no-untyped-def]
     """Return the largest whole number that is not above ``x``, as a float."""
     return np.floor(x)
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def nearest(difference, parameters, d):  # type: ignore[no-untyped-def]
     """Return a ``difference`` of coordinates ``d`` to the nearest copy; ``parameters``: :class:`LoopParameters`."""
     if d == 0:
@@ -20,7 +20,7 @@ def nearest(difference, parameters, d):  # type: ignore[no-untyped-def]
     return difference - parameters.period_z * whole(difference * parameters.per_period_z + 0.5)
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def offset_between(a, i, b, j, dim, periodic, parameters):  # type: ignore[no-untyped-def]
     """Return the components of a_i - b_j, the third one 0 in two dimensions, and their sum of squares.
 
@@ -34,7 +34,7 @@ def offset_between(a, i, b, j, dim, periodic, parameters):  # type: ignore[no-un
     return dx, dy, dz, dx * dx + dy * dy + dz * dz
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def squared_distance(a, i, b, j, dim, periodic, parameters):  # type: ignore[no-untyped-def]
     """Return ``|a_i - b_j|^2`` from the first ``dim`` columns of row ``i`` of ``a`` and row ``j`` of ``b``.
 

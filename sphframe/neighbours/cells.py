@@ -46,13 +46,13 @@ def grid_around(lower: Array, upper: Array, width: float, margin: float) -> Grid
     return Grid(origin, cell, shape)
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def row_number(shape, a, b):  # type: ignore[no-untyped-def]
     """Return the number of the row of cells (a, b, :)."""
     return a * shape[1] + (shape[1] - 1 - b if a % 2 else b)
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def cell_number(shape, row, c):  # type: ignore[no-untyped-def]
     """Return the number of the cell with index ``c`` in a row."""
     return row * shape[2] + (shape[2] - 1 - c if row % 2 else c)

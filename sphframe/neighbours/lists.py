@@ -288,7 +288,7 @@ def room_for(longest: int) -> int:
     return -(-int(longest * 1.1 + 4) // 8) * 8
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _cell_range(lower, upper, origin, cell, count):  # type: ignore[no-untyped-def]
     """Return the first and the last of ``count`` cells that overlap an interval; the last may be below the first."""
     first = (lower - origin) / cell
@@ -298,21 +298,21 @@ def _cell_range(lower, upper, origin, cell, count):  # type: ignore[no-untyped-d
     return int(max(first, 0.0)), int(min(last, count - 1.0))
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _gap(x, lower, upper):  # type: ignore[no-untyped-def]
     """Return the distance from ``x`` to an interval."""
     gap = lower - x if lower - x > x - upper else x - upper
     return gap if gap > 0.0 else 0.0
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _box_distance2(rows, j, dim, box):  # type: ignore[no-untyped-def]
     """Return the squared distance of row ``j`` from a box; an unsigned ``j`` needs no check for negative numbers."""
     d2 = _gap(rows[j, 0], box[0], box[1]) ** 2 + _gap(rows[j, 1], box[2], box[3]) ** 2
     return d2 + _gap(rows[j, 2], box[4], box[5]) ** 2 if dim == 3 else d2
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _reach(radius, lower, upper, origin, cell, index):  # type: ignore[no-untyped-def]
     """Return how far along its cells a row may hold what is within ``radius`` of the box ``lower`` .. ``upper``.
 

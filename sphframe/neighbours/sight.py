@@ -48,13 +48,13 @@ class Sight(NamedTuple):
     ghost_thin: BoolArray
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _area(ax, ay, bx, by, cx, cy):  # type: ignore[no-untyped-def]
     """Return twice the area of a triangle, positive where c lies on the left of the line from a to b."""
     return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _left(px, py, qx, qy, x, y, smooth):  # type: ignore[no-untyped-def]
     """Return 1 where a point lies on the left of the line from p to q, else 0; with ``smooth`` > 0, over that width.
 
@@ -84,7 +84,7 @@ def _crossed(px, py, qx, qy, k, sight):  # type: ignore[no-untyped-def]
     return 0.0, math.inf
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _depth(px, py, qx, qy, k, sight):  # type: ignore[no-untyped-def]
     """Return the distance of the line from p to q from the corners of side ``k``, over that where it is stopped."""
     depth = 1.0
@@ -127,13 +127,13 @@ def share_of_fluid(px, py, qx, qy, near, count, sight):  # type: ignore[no-untyp
     return max(seen, 0.0)
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _continues(k, wall, sight):  # type: ignore[no-untyped-def]
     """Whether side ``k`` belongs to a thin wall, or its continuation, that may reach into the side ``wall``."""
     return (sight.thin[k] or sight.beyond[k] != 0) and sight.body[k] != sight.body[wall]
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _closed(k, wall, sight):  # type: ignore[no-untyped-def]
     """Return the share in which side ``k`` of a thin wall, or its continuation, counts behind the side ``wall``."""
     if sight.beyond[k] == 0:

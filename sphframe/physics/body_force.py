@@ -18,7 +18,7 @@ _FIRST = LoopParameters._fields.index("force_x")
 """place of the twelve numbers of the force, which are the last"""
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def body_force(p, x, y, z):  # type: ignore[no-untyped-def]
     """Return f, m/s^2, at a point, from :class:`LoopParameters`; in 2-D its last component, and ``z``, are not used."""
     return (

@@ -18,7 +18,7 @@ import numba
 from sphframe.compiled import fma
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def diffusive_flux(density_difference, gradient_difference):  # type: ignore[no-untyped-def]
     """Return psi_ij.x_ji = 2 (rho_j - rho_i) - (<grad rho>_i + <grad rho>_j).x_ji; zero for a linear density.
 

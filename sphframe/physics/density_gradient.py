@@ -17,7 +17,7 @@ ILL_CONDITIONED = 0.02
 """det(A) / (trace(A)/d)^d below which the matrix A = L^-1 is not inverted; it is 1 in a full neighbourhood"""
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def renormalised_2d(bx, by, xx, xy, yy):  # type: ignore[no-untyped-def]
     """Return the solution of A g = b, A = [[xx, xy], [xy, yy]], or b itself where A is ill-conditioned."""
     determinant = xx * yy - xy * xy
@@ -27,7 +27,7 @@ def renormalised_2d(bx, by, xx, xy, yy):  # type: ignore[no-untyped-def]
     return bx, by
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def renormalised_3d(bx, by, bz, xx, xy, yy, xz, yz, zz):  # type: ignore[no-untyped-def]
     """Return the solution of A g = b for the symmetric matrix A, or b itself where A is ill-conditioned."""
     cxx = yy * zz - yz * yz

@@ -23,7 +23,7 @@ doi:10.1006/jcph.1997.5776; J. J. Monaghan, R. A. Gingold (1983), doi:10.1016/00
 import numba
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def pair_stress(pressure_sum, viscosity, approach, distance2):  # type: ignore[no-untyped-def]
     """Return -(p_i + p_j) + alpha h c0 rho0 pi_ij, in Pa, the factor of grad_i W_ij V_j.
 

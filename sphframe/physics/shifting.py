@@ -48,7 +48,7 @@ SURFACE = 0.75
 """eigenvalue below which a particle is at a free surface"""
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def smallest_eigenvalue(xx, xy, yy, xz, yz, zz):  # type: ignore[no-untyped-def]
     """Return the smallest eigenvalue of a symmetric matrix; that of the plane where ``zz`` is negative."""
     if zz < 0.0:

@@ -27,7 +27,7 @@ _LEAST = 0.05
 """least gamma by which sums are divided"""
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def _edge(rows, i, j, walls, g, parameters, integrals, sigma, periodic):  # type: ignore[no-untyped-def]
     """Return the :class:`Edge` of wall particle ``g`` in row ``j``, as particle ``i`` sees it."""
     h = parameters.smoothing_length

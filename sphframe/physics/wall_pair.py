@@ -7,7 +7,7 @@ import numba
 from sphframe.interfaces import Edge, FluidSide, Seen, SeenFunction, Separation, SurfaceFunction, WallParts, WallSide
 
 
-@numba.njit(inline="always")
+@numba.njit(error_model="numpy", forceinline=True)
 def wall_side(rows, row, walls, g, columns):  # type: ignore[no-untyped-def]
     """Return the :class:`WallSide` of ghost ``g`` in ``row``; ``walls`` are the arrays of all ghosts."""
     deep = columns.dim == 3
