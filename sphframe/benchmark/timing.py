@@ -60,6 +60,8 @@ def seconds(function: Callable[[], object], loops: int = 1, clock: Callable[[], 
 
 
 def loops_for(function: Callable[[], object], shortest: float, clock: Callable[[], float] = time.perf_counter) -> int:
-    """Return the number of calls of ``function`` that take at least about ``shortest`` s together."""
-    once = statistics.median(seconds(function, 1, clock) for _ in range(3))
-    return max(1, round(shortest / max(once, 1e-7)))
+    """Return a power of two: calls of ``function`` that take ``shortest`` s together by ``clock``, fine or coarse."""
+    loops = 1
+    while seconds(function, loops, clock) * loops < shortest:
+        loops *= 2
+    return loops
