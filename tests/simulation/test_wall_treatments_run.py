@@ -1,9 +1,8 @@
-"""Every wall treatment continues from a state to the bit; in long tests, with the same bits on any number of threads.
+"""Wall treatments continue from a state to the bit; in long tests all of them, on any number of threads.
 
 Without tension, none holds water up: films under a ceiling fall, contact lines stay, nothing hangs on walls. All these
 cases have the parameters of ``SMALL``, so that the loops of a treatment are compiled once; the viscosity is that of
-water, which the films do not feel. Those of one treatment of each class run here, the others are long tests: here their
-loops are those with ``FREE`` tension, as the checks of traits compile them.
+water, which the films do not feel. Those of one treatment of each class run here, the others are long tests.
 """
 
 import numba
@@ -73,12 +72,10 @@ def run_and_continue(treatment, integrator, threads, changes):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("treatment", "integrator"),
-    [*((name, "symplectic") for name in TREATMENTS), ("pair-mirror", "rk4"), ("dynamic-2007", "rk4")],
-)
+@pytest.mark.parametrize("treatment", CLASSES)
+@pytest.mark.parametrize("integrator", ["symplectic", "rk4"])
 def test_runs_continue_to_the_bit(treatment, integrator):
-    run_and_continue(treatment, integrator, 1, PLAIN if treatment in CLASSES else FREE)
+    run_and_continue(treatment, integrator, 1, PLAIN)
 
 
 @pytest.mark.long
