@@ -36,8 +36,21 @@ settings.register_profile("any-speed", deadline=None, suppress_health_check=[Hea
 settings.load_profile("any-speed")
 
 
+IN_SPACE = ("ImprovedShepard", "LinearMLS", "Dynamic", "PairMirror")
+"""components whose checks in three dimensions are no long tests"""
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Run the files that contain slow tests first, so that no worker is left with one at the end."""
+    """Make checks of most components in three dimensions long tests: each compiles loops of its own.
+
+    The files that contain slow tests come first, so that no worker is left with one at the end.
+    """
+    for item in items:
+        given = item.callspec.params if isinstance(item, pytest.Function) and hasattr(item, "callspec") else {}
+        if str(given.get("check")).endswith("-3d") and not {type(value).__name__ for value in given.values()} & {
+            *IN_SPACE
+        }:
+            item.add_marker(pytest.mark.long)
     slow = {item.path for item in items if item.get_closest_marker("slow")}
     items.sort(key=lambda item: item.path not in slow)
 

@@ -185,6 +185,7 @@ def test_the_table_of_promises_is_that_of_the_traits() -> None:
         assert t.rotation_invariant
 
 
+@pytest.mark.long
 def test_the_errors_and_gains_in_the_docs_are_those_of_the_code() -> None:
     table = rows("methods.md", 4)
     assert sorted(table) == METHODS

@@ -50,7 +50,7 @@ def finite_differences(height: float, length: float, sound_speed: float, cells: 
     return x, y, spsolve(matrix, right_side).reshape(nx, ny)
 
 
-@pytest.mark.parametrize(("height", "length"), [(0.6, 1.2), (0.6, 0.6), (0.3, 1.2)])
+@pytest.mark.parametrize(("height", "length"), [(0.6, 1.2), (0.6, 0.6), pytest.param(0.3, 1.2, marks=pytest.mark.long)])
 def test_series_solves_the_laplace_equation(height: float, length: float) -> None:
     given = column(height, length)
     x, y, pressure = finite_differences(height, length, given.sound_speed, cells=150)

@@ -110,7 +110,7 @@ def turned_box(tmp_path, size=(10, 9, 8)):
     return str(tmp_path / "box.stl")
 
 
-@pytest.mark.parametrize("radius", [3, 5, 7.3])
+@pytest.mark.parametrize("radius", [3, 5, pytest.param(7.3, marks=pytest.mark.long)])
 def test_spheres_are_filled_from_inside_and_from_outside(radius):
     centre = (0.2, 0.1, 0.3)
     inside = group_of(SphereWall(centre=centre, radius=radius), fluid=Sphere(centre=centre, radius=radius), spacing=1.0)
@@ -121,21 +121,23 @@ def test_spheres_are_filled_from_inside_and_from_outside(radius):
         assert np.sqrt(np.mean(error**2)) <= rms
 
 
-def test_cylinders_boxes_and_turned_boxes_are_filled(tmp_path):
+@pytest.mark.parametrize(
+    "solid",
+    ["cylinder", pytest.param("box", marks=pytest.mark.long), pytest.param("turned box", marks=pytest.mark.long)],
+)
+def test_cylinders_boxes_and_turned_boxes_are_filled(tmp_path, solid):
     file, ends = turned_box(tmp_path), {"start": (0, 0, 0), "stop": (12, 5, 3), "radius": 5.5}
-    for wall, fluid, rms in (
-        (CylinderWall(**ends), FAR, 0.01),
-        (CylinderWall(**ends), Cylinder(**ends), 0.015),
-        (BoxWall(lower=(0, 0, 0), upper=(10, 9, 8.3)), FAR, 0.01),
-        (MeshWall(file=file), FAR, 0.01),
-        (MeshWall(file=file), Mesh(file=file), 0.016),  # most of it is near edges
-    ):
+    for wall, fluid, rms in {
+        "cylinder": [(CylinderWall(**ends), FAR, 0.01), (CylinderWall(**ends), Cylinder(**ends), 0.015)],
+        "box": [(BoxWall(lower=(0, 0, 0), upper=(10, 9, 8.3)), FAR, 0.01)],
+        "turned box": [(MeshWall(file=file), FAR, 0.01), (MeshWall(file=file), Mesh(file=file), 0.016)],
+    }[solid]:  # most errors within a turned box are near edges
         error = filling_errors(group_of(wall, fluid=fluid, spacing=1.0), 1.0, count=150)
         assert np.abs(error).max() <= 0.03, (wall, fluid)
         assert np.sqrt(np.mean(error**2)) <= rms, (wall, fluid)
 
 
-@settings(max_examples=3, deadline=None)
+@settings(max_examples=1, deadline=None)
 @example((10.0, 11.0, 9.0), (0.0, 0.0, 0.0), 1.0)
 @example((8.0, 8.0, 8.0), (0.0, 0.0, 0.0), 1.7307872820624008)  # faces along lines of the columns that divide cells
 @example((8.0, 8.0, 8.0), (0.0, 0.2, 0.0), 0.2)  # a ghost nearly as near to two faces

@@ -47,8 +47,8 @@ COARSE: dict[str, tuple[dict[str, Any], dict[str, float]]] = {
 """parameters of short runs, and limits of their errors"""
 
 
-LONG = {"cylinder-in-channel", "moving-square", "standing-wave"}
-"""runs that are compiled with options of their own"""
+LONG = {"cylinder-in-channel", "dam-break-impact", "moving-square", "standing-wave", "taylor-green", "two-basins"}
+"""runs of many steps, or compiled with options of their own"""
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name in LONG)) for name in COARSE])

@@ -77,7 +77,15 @@ def test_the_tasks_of_a_section_differ_and_are_valid(name: str, quick: bool) -> 
     assert all(task.weight > 0.0 for task in own)
 
 
-@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:Attempting to set identical low and high")
+def test_a_section_has_every_figure_and_table(cluster: str, tmp_path: Path) -> None:
+    reproduce(Shortened(), output=tmp_path, quick=True, only=["movable-wall"], reference=tmp_path, scheduler=cluster)
+    for folder, all_names in (("figures", FIGURES), ("tables", {f"{name}.csv" for name in TABLES})):
+        made = {path.name for path in (tmp_path / folder).iterdir()} - {"claims.csv"}
+        assert made == {name for name in all_names if name.startswith("movable_wall")}
+
+
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore:Attempting to set identical low and high")
 def test_the_report_has_every_figure_table_and_claim(cluster: str, tmp_path: Path) -> None:
     write_reference_series(tmp_path)

@@ -33,6 +33,7 @@ class Always(BoundaryInterpolator):
         return LinearMLS(self.amplification, "rank-revealing").fallback_weights(kernel, dim)
 
 
+@pytest.mark.long
 @parametrize_with_checks([Always()])
 def test_has_its_traits(method, check):
     """Its weights are continuous, also where a particle enters and where a direction is left out."""

@@ -14,7 +14,7 @@ from sphframe import Simulation, load_case, run
     ("method", "angle"),
     [
         ("improved-shepard", 120.0),
-        ("mls-linear", 90.0),
+        pytest.param("mls-linear", 90.0, marks=pytest.mark.long),
         pytest.param("improved-shepard", 90.0, marks=pytest.mark.long),
         pytest.param("mls-linear", 120.0, marks=pytest.mark.long),
     ],
