@@ -11,6 +11,7 @@ import numpy as np
 
 from .kernels import Array, Gaussian
 from .shifting import control, shift
+from .tension import faded, released, released_edges
 from .treatments import RUBS_WITHOUT_FRICTION, TREATMENTS
 from .walls import Walls
 from .weights import Around, shared
@@ -46,7 +47,8 @@ class Plain:
 
     def bounded(self, pressure: Array) -> Array:
         """The pressure of a ghost, limited as the case asks for."""
-        return np.maximum(pressure, self.case.lowest_pressure) if self.case.tension == "bounded" else pressure
+        lowest = {"none": 0.0, "bounded": self.case.lowest_pressure, "free": -np.inf}[self.case.tension]
+        return np.maximum(pressure, lowest)
 
     def strength(self, share: float) -> float:
         """The strength of forces by the depth of the water."""
@@ -69,19 +71,25 @@ class Plain:
         if given.position is not None:
             self.x_gi = nearest(given.position[None] - self.x[:, None])
         p, u, v = given.pairs or (self.ghost_p[None], given.velocity[None], viscous[None])
+        share, pressures, self.surface = given.share, self.p[:, None] + p, given.surface
+        if self.case.tension == "none":
+            share = share * faded(self, given.pressure)
+            pressures, u, v = released(self, pressures, u, v)
+            self.surface = given.surface and released_edges(self, *given.surface)
         self.x_ji = np.concatenate([nearest(self.x[None] - self.x[:, None]), self.x_gi], axis=1)
         own, wide = self.u[None] - self.u[:, None], self.x_gi.shape
         self.u_ji = np.concatenate([own, u - self.u[:, None]], axis=1)
         rubs = self.case.slip == "no" or self.treatment in RUBS_WITHOUT_FRICTION
         self.v_ji = np.concatenate([own, rubs * (v - self.u[:, None])], axis=1)
-        self.p_sum = self.p[:, None] + np.concatenate([np.tile(self.p, (n, 1)), np.broadcast_to(p, wide[:2])], axis=1)
+        self.p_sum = np.concatenate([self.p[:, None] + self.p, np.broadcast_to(pressures, wide[:2])], axis=1)
         self.rho_ji = self.rho[None] - self.rho[:, None]
-        volume = given.share * (walls.drawn.volume if given.volume is None else given.volume)
+        volume = share * (walls.drawn.volume if given.volume is None else given.volume)
         self.volume = np.append(self.v, volume)
         self.slope = self.kernel.gradient(self.x_ji) * self.volume[None, :, None]
         r2 = np.sum(self.x_ji**2, axis=2)
         self.r2 = np.where(r2 > 0.0, r2, 1.0)
         self.fluid = slice(0, n)
+        self.gamma = np.ones(n) if given.gamma is None else given.gamma
 
     def pressure(self) -> Array:
         """The linear equation of state."""
@@ -104,10 +112,13 @@ class Plain:
     def density_rate(self, gradient: Array) -> Array:
         """Continuity with density diffusion among the fluid."""
         divergence = np.einsum("ijk,ijk->i", self.u_ji, self.slope)
+        if self.surface is not None:
+            divergence += self.surface[1].sum(axis=1)
         x, slope = self.x_ji[:, self.fluid], self.slope[:, self.fluid]
         psi = 2.0 * (self.rho_ji / self.r2[:, self.fluid])[:, :, None] * x - gradient[:, None] - gradient[None]
         diffused = np.einsum("ijk,ijk->i", psi, slope)
-        return -self.rho * divergence + self.case.density_diffusion * self.kernel.h * self.c0 * diffused
+        rate = -self.rho * divergence + self.case.density_diffusion * self.kernel.h * self.c0 * diffused
+        return rate / self.gamma
 
     def pair_forces(self) -> Array:
         """Force per volume of i by j, (n, n + g, dim)."""
@@ -122,7 +133,9 @@ class Plain:
             forces += 2.0 * self.rho0 * nu * across[:, :, None] * self.v_ji
         if self.ghosts.force is not None:
             forces[:, len(self.x) :] += self.rho[:, None, None] * self.ghosts.force
-        return forces
+        if self.surface is not None:
+            forces[:, len(self.x) :] += self.surface[0]
+        return forces / self.gamma[:, None, None]
 
     def acceleration(self) -> Array:
         """Momentum."""

@@ -11,7 +11,7 @@ from sphframe import Simulation
 
 from .plain import Plain
 from .scenes import DX, random_scene
-from .treatments import TREATMENTS
+from .treatments import IN_THE_PLANE, TREATMENTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::sphframe.cases.CaseWarning")
 SEEDS = st.integers(0, 10**6)
@@ -136,6 +136,22 @@ def test_treatments_in_the_plane(treatment: dict[str, Any], seed: int, walls: st
     compare_walls(treatment, seed, 2, walls, **SHEARED)
 
 
+RELEASED = {**SHEARED, "tension": "none"}
+SHORT = ("fixed-ghosts", "mirror-images", "pair-mirror")
+"""their loops are those of ``tests/simulation/test_wall_treatments_run.py``"""
+
+
+@pytest.mark.parametrize(
+    "treatment",
+    [pytest.param(given, marks=[] if given["name"] in SHORT else pytest.mark.long) for given in WALLS],
+    ids=described,
+)
+@settings(max_examples=2)
+@given(SEEDS, st.sampled_from(["box", "moving", "at rest"]))
+def test_walls_that_do_not_attract(treatment: dict[str, Any], seed: int, walls: str) -> None:
+    compare_walls(treatment, seed, 2, walls, **RELEASED)
+
+
 SHIFTED = {"shifting": 1.0, "tensile_control": "on"}
 
 
@@ -181,7 +197,9 @@ def test_many_scenes_that_repeat_themselves(walls: str) -> None:
 @pytest.mark.parametrize("dim", [2, 3])
 @pytest.mark.parametrize("treatment", [*WALLS, *OPTIONS], ids=described)
 def test_many_scenes_of_treatments(treatment: dict[str, Any], dim: int) -> None:
+    if dim == 3 and treatment["name"] in IN_THE_PLANE:
+        pytest.skip("in two dimensions alone")
     for seed in range(1000, 1000 + MANY):
         walls = "box" if dim == 3 else ("box", "moving", "at rest")[seed % 3]
-        given = SHEARED if seed % 2 else {"slip": "free", "integrator": "rk4"}
+        given = (SHEARED, RELEASED, {"slip": "free", "integrator": "rk4"})[seed // 3 % 3]
         compare_walls(treatment, seed, dim, walls, **given)

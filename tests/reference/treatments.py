@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .edges import approach, edges, friction
 from .kernels import Array
 from .weights import (
     Around,
@@ -42,7 +43,8 @@ class Assigned:
 
     ``viscous``: another velocity for the viscosity; ``pairs``: pressure and velocities (n, g, ..) as each particle sees
     them; ``force``: accelerations (n, g, dim) that take the place of all sums; ``rate`` of the walls' densities. Images
-    of the fluid have a ``position`` and a ``volume`` of their own, and are seen only by the fluid.
+    of the fluid have a ``position`` and a ``volume`` of their own, and are seen only by the fluid. Edges: forces per
+    volume (n, g, dim) and divergences (n, g) of the ``surface``, and ``gamma`` (n,), by which all sums are divided.
     """
 
     pressure: Array
@@ -54,6 +56,8 @@ class Assigned:
     rate: Array | None = None
     position: Array | None = None
     volume: Array | None = None
+    surface: tuple[Array, Array] | None = None
+    gamma: Array | None = None
 
 
 def lifted(s: "Plain", phi: Array, around: Around) -> Array:
@@ -242,6 +246,26 @@ def mirror_images(s: "Plain") -> Assigned:
     return Assigned(pressure, u_w + mirrored, position=x, volume=np.tile(s.v, copies))
 
 
+def edge_integrals(s: "Plain") -> Assigned:
+    """2 p_i grad gamma_e - A_e b, grad gamma_e = -w0_e n, A_e = c_e 1 + (z_e w0_e n + w1_e t) (x) n."""
+    e, normal, b = edges(s), s.walls.normal, s.walls.b
+    tangent = np.stack([-normal[:, 1], normal[:, 0]], axis=1)
+    across = (e.z * e.weight)[:, :, None] * normal + e.moment[:, :, None] * tangent
+    lift = e.solid[:, :, None] * b + across * np.einsum("gk,gk->g", b, normal)[:, None]
+    force = -2.0 * (s.p[:, None] * e.weight)[:, :, None] * normal - lift + friction(s, e)
+    return Assigned(np.zeros(len(b)), s.walls.u, share=0.0, surface=(force, 2.0 * approach(s) * e.weight))
+
+
+def usaw_2013(s: "Plain") -> Assigned:
+    """(p_i + p_s) grad gamma_s, and all sums divided by gamma_i = 1 - sum c_s."""
+    e, around = edges(s), s.around(s.walls.ghost)
+    pressure = lifted(s, normalised(around), around)
+    push = (s.p[:, None] + s.bounded(pressure)) * e.weight
+    force = -push[:, :, None] * s.walls.normal + friction(s, e)
+    gamma = np.maximum(1.0 - e.solid.sum(axis=1), 0.05)
+    return Assigned(pressure, s.walls.u, share=0.0, surface=(force, approach(s) * e.weight), gamma=gamma)
+
+
 TREATMENTS: dict[str, Callable[["Plain"], Assigned]] = {
     "fixed-ghosts": fixed_ghosts,
     "adami-2012": adami_2012,
@@ -257,6 +281,10 @@ TREATMENTS: dict[str, Callable[["Plain"], Assigned]] = {
     "mirror-images": mirror_images,
     "lennard-jones": lennard_jones,
     "monaghan-kajtar-2009": monaghan_kajtar_2009,
+    "edge-integrals": edge_integrals,
+    "usaw-2013": usaw_2013,
 }
+IN_THE_PLANE = ("edge-integrals", "usaw-2013")
+"""treatments that exist in two dimensions alone"""
 RUBS_WITHOUT_FRICTION = ("fixed-ghosts", "mirror-images", "mdbc-2025")
 """treatments whose walls have a viscosity with free slip, too"""
