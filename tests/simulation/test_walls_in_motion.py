@@ -66,6 +66,7 @@ def test_accelerated_tank_keeps_a_tilted_hydrostatic_field() -> None:
     assert simulation.particles_outside() == 0
 
 
+@pytest.mark.long
 def test_tank_swung_with_no_net_change_returns_to_rest() -> None:
     span, way = 3.0, 0.1
 

@@ -100,7 +100,7 @@ def test_errors_at_a_straight_wall(name, options, field, rule, kernels):
         pytest.param("mdbc-2025", {}, (4.1, 2.6), (4.8, 2.8), 0.7, marks=pytest.mark.long),
         ("mdbc-2025", {"velocity": "corrected"}, (1.20, 0.30), None, 2.0),
         ("distance-ratio", {}, (1.02, 0.26), None, 2.0),
-        ("adami-2012", {}, (1.70, 0.56), None, None),
+        pytest.param("adami-2012", {}, (1.70, 0.56), None, None, marks=pytest.mark.long),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )

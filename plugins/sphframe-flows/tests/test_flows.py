@@ -47,7 +47,10 @@ COARSE: dict[str, tuple[dict[str, Any], dict[str, float]]] = {
 """parameters of short runs, and limits of their errors"""
 
 
-LONG = {"cylinder-in-channel", "dam-break-impact", "moving-square", "standing-wave", "taylor-green", "two-basins"}
+LONG = {
+    "couette", "cylinder-in-channel", "dam-break-impact", "drum", "moving-square", "oblique-jet", "standing-wave",
+    "taylor-green", "two-basins",
+}  # fmt: skip
 """runs of many steps, or compiled with options of their own"""
 
 
