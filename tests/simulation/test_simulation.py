@@ -57,7 +57,7 @@ def test_three_dimensions_rest():
     assert simulation.particles_outside() == 0
 
 
-@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize("dimension", [2, pytest.param(3, marks=pytest.mark.long)])
 def test_threads_give_the_same_bits(dimension):
     threads = min(2, numba.config.NUMBA_NUM_THREADS)
     if threads < 2:

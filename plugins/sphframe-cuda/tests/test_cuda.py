@@ -14,8 +14,8 @@ from typer.testing import CliRunner
 from sphframe.cli.app import app
 
 PROGRAM = Path(__file__).parent / "on_device.py"
-CHECKS = ["in_the_plane", "moving", "resumed"]
-LONG = ("in_space", "with_other_methods", "with_other_treatments", "against_plain_numpy")
+CHECKS = ["in_the_plane", "resumed"]
+LONG = ("in_space", "moving", "with_other_methods", "with_other_treatments", "against_plain_numpy")
 
 
 @pytest.mark.slow
