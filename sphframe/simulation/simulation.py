@@ -70,9 +70,11 @@ class Simulation(Observation):
         scene = placed_scene(case)
         check_memory(case, scene)
         with self._adding_time_and_step(), naming_component(case, running=False):
+            kind = load("devices", device)
+            kind.check_available()
             components = Components.of_case(case)
             parameters = loop_parameters(case, scene, components)
-            system = initial_system(case, scene, components, parameters, load("devices", device))
+            system = initial_system(case, scene, components, parameters, kind)
         super().__init__(case, scene, components, system)
         self.initial_energy = sum(self.energies().values())
         self.densities_outside = 0

@@ -2,7 +2,6 @@
 
 # mypy: disable-error-code="no-untyped-call"
 
-from functools import cache
 from typing import Any, Literal
 
 import numpy as np
@@ -12,7 +11,6 @@ from sphframe import InputError
 from sphframe_cuda.loops import SIMULATED
 
 
-@cache
 def check_device() -> None:
     """Raise an InputError if there is no device."""
     if not cuda.is_available():
@@ -24,13 +22,11 @@ def check_device() -> None:
 
 def room(shape: tuple[int, ...], kind: Any = np.float64, *, order: Literal["C", "F"] = "C") -> Any:
     """Return an array on the device whose content is not defined; with ``order`` "F" its first index runs fastest."""
-    check_device()
     return (np.empty if SIMULATED else cuda.device_array)(shape, kind, order=order)
 
 
 def put(array: Any) -> Any:
     """Return a copy of ``array`` on the device."""
-    check_device()
     if SIMULATED:
         return np.array(array)
     return cuda.to_device(np.ascontiguousarray(array))

@@ -21,7 +21,7 @@ from sphframe.devices import (
     hold_state,
     largest_motion,
 )
-from sphframe_cuda.arrays import fetched, put, put_into, room
+from sphframe_cuda.arrays import check_device, fetched, put, put_into, room
 from sphframe_cuda.lists import DeviceLists
 from sphframe_cuda.loops import SIMULATED, Loop
 from sphframe_cuda.templates import copy_rows, give_rows, put_rows, take_rows
@@ -57,6 +57,7 @@ class CudaSystem(FluidSystem):
     """
 
     specialise, make_scratch, lists_type = Loop, staticmethod(_scratch), DeviceLists
+    check_available = staticmethod(check_device)
     hold_state, advance_state, add_columns = Loop(hold_state), Loop(advance_state), Loop(add_columns)
     check_rows, check_ghosts = Loop(check_fluid), Loop(first_bad_ghost)
     _take_rows, _give_rows, _put_rows, _copy_rows = Loop(take_rows), Loop(give_rows), Loop(put_rows), Loop(copy_rows)

@@ -29,8 +29,11 @@ def test_the_device_computes_what_the_processor_does(checks: list[str]) -> None:
 
 
 @pytest.mark.skipif(cuda.is_available(), reason="there is a CUDA device")
-def test_a_run_without_a_device_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_run_without_a_device_is_refused_before_anything_is_compiled(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sphframe.simulation.simulation.loop_parameters", None)
     result = CliRunner().invoke(app, ["run", "dam-break", "--device", "cuda"])
     assert result.exit_code == 2
     assert "no CUDA device was found" in " ".join(result.output.split())
