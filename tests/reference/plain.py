@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from .bodies import FreeBody
 from .kernels import Array, Gaussian
 from .shifting import control, shift
 from .tension import faded, released, released_edges
@@ -19,7 +20,7 @@ from .weights import Around, shared
 
 @dataclass
 class Plain:
-    """The fluid ``x``, ``u``, ``rho``, ``m`` within ``walls``; ``case`` gives the parameters."""
+    """The fluid ``x``, ``u``, ``rho``, ``m`` within ``walls``, that a ``free`` body may carry; ``case``: parameters."""
 
     case: Any
     c0: float
@@ -32,6 +33,7 @@ class Plain:
     m: Array
     wall_density: Array
     """of ghosts that have one of their own"""
+    free: FreeBody
     condition: float = 1.0
     """the largest of the weights"""
 
@@ -146,11 +148,18 @@ class Plain:
         """Of the walls' own densities."""
         return np.zeros_like(self.wall_density) if self.ghosts.rate is None else self.ghosts.rate
 
-    def evaluate(self, time: float) -> tuple[Array, Array, Array, Array]:
+    def accelerate(self) -> None:
+        """Compute the accelerations of the fluid and of the free body, and the density gradient."""
+        self.gradient, self.a = self.density_gradient(), self.acceleration()
+        if np.isfinite(self.free.mass):
+            self.free.respond(self.loads().sum(axis=0))
+
+    def evaluate(self, time: float) -> tuple[Array, ...]:
         """All rates."""
         self.prepare(time)
-        self.gradient = self.density_gradient()
-        return self.u, self.acceleration(), self.density_rate(self.gradient), self.wall_rate()
+        self.accelerate()
+        rates = self.density_rate(self.gradient), self.wall_rate()
+        return self.u, self.a, *rates, self.free.velocity, self.free.acceleration
 
     def loads(self) -> Array:
         """Force and moment on each wall, (walls, 3 or 6)."""
@@ -168,30 +177,42 @@ class Plain:
 
     def start(self, time: float) -> None:
         """Compute the rates of the first state."""
-        self.time, (_, self.a, _, _) = time, self.evaluate(time)
+        self.time = time
+        self.evaluate(time)
+
+    def kick(self, dt: float) -> None:
+        """Advance velocities."""
+        self.u = self.u + dt * self.a
+        self.free.velocity = self.free.velocity + dt * self.free.acceleration
+
+    def drift(self, dt: float) -> None:
+        """Advance positions."""
+        self.x = self.x + dt * self.u
+        self.free.position = self.free.position + dt * self.free.velocity
 
     def symplectic(self, dt: float) -> None:
         """Kick, drift, density, drift, kick."""
-        self.u = self.u + 0.5 * dt * self.a
-        self.x = self.x + 0.5 * dt * self.u
+        self.kick(0.5 * dt)
+        self.drift(0.5 * dt)
         self.prepare(self.time + 0.5 * dt)
         self.rho = self.rho + dt * self.density_rate(self.gradient)
         self.wall_density = self.wall_density + dt * self.wall_rate()
-        self.x = self.x + 0.5 * dt * self.u
+        self.drift(0.5 * dt)
         self.time += dt
         self.prepare(self.time)
-        self.gradient, self.a = self.density_gradient(), self.acceleration()
-        self.u = self.u + 0.5 * dt * self.a
+        self.accelerate()
+        self.kick(0.5 * dt)
 
     def rk4(self, dt: float) -> None:
         """The classical scheme."""
-        start, total, time = (self.x, self.u, self.rho, self.wall_density), [0.0] * 4, self.time
+        free, time = self.free, self.time
+        start, total = (self.x, self.u, self.rho, self.wall_density, free.position, free.velocity), [0.0] * 6
         for weight, before, onward in ((1 / 6, 0.0, 0.5), (1 / 3, 0.5, 0.5), (1 / 3, 0.5, 1.0), (1 / 6, 1.0, 0.0)):
             rates = self.evaluate(time + before * dt)
-            self.a = rates[1]
             total = [t + weight * rate for t, rate in zip(total, rates, strict=True)]
             by = total if onward == 0.0 else [onward * rate for rate in rates]
-            self.x, self.u, self.rho, self.wall_density = (y + dt * rate for y, rate in zip(start, by, strict=True))
+            state = (y + dt * rate for y, rate in zip(start, by, strict=True))
+            self.x, self.u, self.rho, self.wall_density, free.position, free.velocity = state
         self.time = time + dt
 
     # observation

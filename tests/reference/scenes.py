@@ -10,6 +10,7 @@ from sphframe import BodyForce, Simulation
 from sphframe.cases import Custom
 from sphframe.geometry import BoxRegion, BoxWall, PolygonWall
 
+from .bodies import FreeBody
 from .plain import Plain
 from .walls import Motion, Walls, turn
 
@@ -67,8 +68,8 @@ def motion(random: np.random.Generator, dim: int, *, turns: bool = True) -> Call
 def walls_of(kind: str, dim: int, size: Array) -> list[Any]:
     """A tank without a lid, one box, or in 2-D a slope and the rest, which share two corners; or what repeats itself.
 
-    A carried box does not turn, and the force is the same everywhere. A channel along x has a bed that slides or moves
-    and a lid; a gutter along y has no ends.
+    A carried box does not turn, and the force is the same everywhere. A free box is moved by the water. A channel along
+    x has a bed that slides or moves and a lid; a gutter along y has no ends.
     """
     if kind == "nothing":
         return []
@@ -105,9 +106,15 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
     drift, centre = motion(random, dim, turns=not axes and walls != "carried box"), random.normal(size=dim)
     drawn = walls_of(walls, dim, size)
     moves = bool(drawn) and drawn[0].body is not None
+    body: dict[str, Any] = {"name": "prescribed", "function": drift, "centre": tuple(centre)}
+    free = FreeBody.none(dim)
+    if walls == "free box":
+        mass, inertia = 1000.0 * random.uniform(4.0, 8.0, 2) * size.prod()
+        free = FreeBody(mass, inertia, np.array([0.0, -9.81]), *drift(0.0))
+        body = {"name": "free", "mass": mass, "inertia": inertia, "centre": tuple(centre)}
     case = Custom(
         dimension=dim, particle_spacing=DX, walls=drawn, fluid=[BoxRegion(lower=(0.0,) * dim, upper=tuple(DX * cells))],
-        bodies={"tank": {"name": "prescribed", "function": drift, "centre": tuple(centre)}} if moves else {},
+        bodies={"tank": body} if moves else {},
         until=1.0, time_step=1e-3, sound_speed=20.0, jitter=0.15, seed=seed, periodic=tuple(axes),
         domain=(tuple(np.where(repeats, 0.0, -9.0)), tuple(np.where(repeats, size, 9.0))),
         density_diffusion=random.uniform(0.0, 0.3), artificial_viscosity=random.uniform(0.0, 0.3),
@@ -125,6 +132,8 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
         place, rate, _ = drift(0.0)
         rows[:, columns.position] = (rows[:, columns.position] - centre) @ turn(place).T + centre + place[:dim]
         rows[:, columns.velocity] = rate[:dim]
+        for name, value in (("position", place), ("velocity", rate), ("motions", drift(0.0))):
+            state[f"bodies.{name}"][0] = value
     rows[:, columns.position] += 1.5 * random.uniform(-1.0, 1.0, dim) * size * repeats
     rows[:, columns.velocity] += 0.5 * random.normal(size=(n, dim))
     rows[:, columns.mass] *= random.uniform(0.9, 1.1, n)
@@ -134,14 +143,15 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
     order = np.argsort(system.ids)
     at_rest = run.boundary.velocity * (not moves)
     faces = [[0.0, float(end)] for end in size[:-1]] + [[0.0]] if "box" in walls else None
-    around = Walls(run.boundary._drawn, run.boundary.wall_body, centre[None], [drift] if moves else [], at_rest,
-                   size * repeats, faces)  # fmt: skip
+    carriers = [free if walls == "free box" else drift] * moves
+    around = Walls(run.boundary._drawn, run.boundary.wall_body, centre[None], carriers, at_rest, size * repeats, faces)
     plain = Plain(
         case, 20.0, around, lambda time: (gravity + force.acceleration(time), force.gradient(time)),
         rows[order, columns.position], rows[order, columns.velocity], rows[order, columns.density],
-        rows[order, columns.mass], state["boundary.wall_state"].copy(),
+        rows[order, columns.mass], state["boundary.wall_state"].copy(), free,
     )  # fmt: skip
     run.restore(state)
+    system.move_walls(0.0)
     system.find_neighbours()
     system.evaluate(0.0)
     plain.start(0.0)

@@ -40,6 +40,9 @@ def assert_same(run: Simulation, plain: Plain, seed: int) -> None:
         ("ghost position", ghosts.position, walls.wrapped(walls.ghost)),
         ("wall density", run.boundary.wall_state, plain.wall_density),
     ]
+    if np.isfinite(plain.free.mass):
+        quantities += [(name, getattr(run.system.bodies, name)[0], getattr(plain.free, name))
+                       for name in ("position", "velocity")]  # fmt: skip
     if plain.ghosts.position is None:  # ghosts do not count beside images
         near = (np.linalg.norm(plain.x_gi, axis=2) < run.support).any(axis=0)  # others are left as they were
         quantities += [
@@ -53,6 +56,7 @@ def assert_same(run: Simulation, plain: Plain, seed: int) -> None:
     assert_close("energies", list(run.energies().values()), list(plain.energies().values()))
     points = plain.x + DX * np.random.default_rng(seed).normal(size=plain.x.shape)
     assert_close("samples", run.sample(points)[0], plain.sample(points))
+    run.system.move_walls(plain.time)
     run.system.fill_ghosts()
     run.system.update_loads()
     assert_close("loads", run.system.loads, plain.loads())
@@ -89,6 +93,12 @@ def test_the_mirror_lift_and_laminar_viscosity_in_the_plane(seed: int, walls: st
         seed, 2, walls, slip=slip, hydrostatic_lift="mirror", interpolator="normalized", kinematic_viscosity=0.02,
         tension="free",
     )  # fmt: skip
+
+
+@settings(max_examples=4)
+@given(SEEDS, INTEGRATORS)
+def test_a_free_body_in_the_plane(seed: int, integrator: str) -> None:
+    compare(seed, 2, "free box", integrator=integrator)
 
 
 @settings(max_examples=4)
@@ -200,6 +210,6 @@ def test_many_scenes_of_treatments(treatment: dict[str, Any], dim: int) -> None:
     if dim == 3 and treatment["name"] in IN_THE_PLANE:
         pytest.skip("in two dimensions alone")
     for seed in range(1000, 1000 + MANY):
-        walls = "box" if dim == 3 else ("box", "moving", "at rest")[seed % 3]
+        walls = "box" if dim == 3 else ("box", "moving", "at rest", "free box")[seed % 4]
         given = (SHEARED, RELEASED, {"slip": "free", "integrator": "rk4"})[seed // 3 % 3]
         compare_walls(treatment, seed, dim, walls, **given)

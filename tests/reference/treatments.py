@@ -286,5 +286,5 @@ TREATMENTS: dict[str, Callable[["Plain"], Assigned]] = {
 }
 IN_THE_PLANE = ("edge-integrals", "usaw-2013")
 """treatments that exist in two dimensions alone"""
-RUBS_WITHOUT_FRICTION = ("fixed-ghosts", "mirror-images", "mdbc-2025")
+RUBS_WITHOUT_FRICTION = ("fixed-ghosts", "mirror-images", "mdbc-2025", "dynamic-2007")
 """treatments whose walls have a viscosity with free slip, too"""
