@@ -33,7 +33,7 @@ class Dynamic(WallTreatment):
 
         drho_G/dt = -rho_G sum_j (u_j - u_w).grad_G W V_j + delta h c0 sum_j psi_Gj.grad_G W V_j,    rho_G >= rho0
         psi_Gj = 2 (rho_j - rho_G - b.x/c0^2) x/|x|^2
-        p_G = p(rho_G),    V_G = m/rho_G,    u_G = u_w
+        p_G = p(rho_G),    V_G = m/rho_G,    u_G = u_w, also with free slip
 
     With delta = 0, the published method, the density only remembers what has moved: it starts in hydrostatic
     equilibrium. With delta > 0 it relaxes to that of the fluid, lifted to the wall particle, and forgets its start.
