@@ -26,7 +26,7 @@ PROSE = [
 DISTRIBUTIONS = [ROOT / "pyproject.toml", *sorted(ROOT.glob("plugins/*/pyproject.toml"))]
 
 LONGEST_CLASS, LONGEST_FUNCTION = 250, 60
-LARGEST_CORE = 12_740
+LARGEST_CORE = 12_737
 """the aim is 6,000 lines; lower this limit whenever the core has become smaller"""
 
 

@@ -82,7 +82,7 @@ class FluidSystem(PackedSystem):
         self.parameters, self.columns = parameters, Columns.of(dim)
         self.bodies = BodyStates(boundary.bodies, dim)
         self.loads = np.zeros((len(boundary.wall_body), self.bodies.size))
-        self._driving = driving
+        self._driving, self._pressure_is_current = driving, False
         self._pressure = self.specialise(update_pressure, parts, parallel=several)
         self._put_back = self.specialise(put_back, {**parts, "MARKS": boundary.solid_contacts.needed}, parallel=several)
         self.rows, self.lists, count = rows, lists, lists.fluid_count
@@ -90,7 +90,6 @@ class FluidSystem(PackedSystem):
         self.rates, self._start, self._total = (np.zeros((count, self.columns.density + 1)) for _ in range(3))
         self.gradient, self._spare = np.zeros((count, dim)), np.zeros((count, self.columns.width))
         self._saved = (*_SAVED, "turns") if boundary.periods else _SAVED
-        self._pressure_is_current = False
 
     # neighbours
 
@@ -218,8 +217,7 @@ class FluidSystem(PackedSystem):
 
     def update_loads(self) -> None:
         """Compute force and moment of the fluid on each wall."""
-        shares = self.boundary.corner_shares(self.bodies.motions)
-        self.loads = self.react(self.boundary.wall, shares, self.references())
+        self.loads = self.react(self.boundary.wall, self.boundary.corner_shares(self.bodies.motions), self.references())
 
     def react(self, walls: IntArray, shares: Shares, centres: Array) -> Array:
         """Return the loads on the ``walls`` (g,) of the ghosts, a sum over chunks; see :class:`RateLoops`."""
@@ -258,9 +256,8 @@ class FluidSystem(PackedSystem):
             "boundary": self.boundary.state(),
             "lists": self.lists.state(),
             **{f"stored.{place}": totals for place, totals in enumerate(self.stored)},
+            **({} if self.channel is None else {"channel": self.channel.state()}),
         }
-        if self.channel is not None:
-            parts["channel"] = self.channel.state()
         return {
             "ids": self.ids.copy(),
             **{name: getattr(self, name).copy() for name in self._saved},
