@@ -36,8 +36,15 @@ settings.register_profile("any-speed", deadline=None, suppress_health_check=[Hea
 settings.load_profile("any-speed")
 
 
-IN_SPACE = ("ImprovedShepard", "LinearMLS", "Dynamic", "PairMirror")
+IN_SPACE = {"ImprovedShepard", "LinearMLS", "Dynamic", "PairMirror"}
 """components whose checks in three dimensions are no long tests"""
+
+
+def checks_another_in_space(item: pytest.Item) -> bool:
+    """Whether a test is a check of a component in three dimensions that is not named in ``IN_SPACE``."""
+    given = item.callspec.params if hasattr(item, "callspec") else {}
+    in_space = getattr(given.get("check"), "dim", None) == 3
+    return in_space and IN_SPACE.isdisjoint(type(value).__name__ for value in given.values())
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -45,12 +52,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
     The files that contain slow tests come first, so that no worker is left with one at the end.
     """
-    for item in items:
-        given = item.callspec.params if isinstance(item, pytest.Function) and hasattr(item, "callspec") else {}
-        if str(given.get("check")).endswith("-3d") and not {type(value).__name__ for value in given.values()} & {
-            *IN_SPACE
-        }:
-            item.add_marker(pytest.mark.long)
+    for item in filter(checks_another_in_space, items):
+        item.add_marker(pytest.mark.long)
     slow = {item.path for item in items if item.get_closest_marker("slow")}
     items.sort(key=lambda item: item.path not in slow)
 

@@ -55,12 +55,12 @@ class FluidSystem(PackedSystem):
     how loops over them are compiled (``specialise``) and where their scratch memory and their lists are.
     """
 
+    specialise, make_scratch = staticmethod(specialise), staticmethod(Scratch.of)
+    lists_type: type[NeighbourLists] = NeighbourLists
+
     @staticmethod
     def check_available() -> None:
         """Raise an InputError where what computes the steps is missing; the processor is always there."""
-
-    specialise, make_scratch = staticmethod(specialise), staticmethod(Scratch.of)
-    lists_type: type[NeighbourLists] = NeighbourLists
 
     def __init__(
         self,

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from .kernels import NORMALISATION, Array, Gaussian
+from .walls import cross
 
 if TYPE_CHECKING:
     from .plain import Plain
@@ -15,9 +16,11 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(120)
 class Edges(NamedTuple):
     """As each particle sees each edge, (n, g): distance ``z`` before its line, and the integrals over it.
 
-    ``solid``: of the kernel over what lies behind the edge; ``weight``, ``moment``: int W ds and int W s ds.
+    ``solid``: of the kernel over what lies behind the edge; ``weight``, ``moment``: int W ds and int W s ds, along the
+    ``tangent`` (g, dim).
     """
 
+    tangent: Array
     z: Array
     solid: Array
     weight: Array
@@ -34,7 +37,7 @@ def beyond(kernel: Gaussian, r: Array) -> Array:
 def edges(s: "Plain") -> Edges:
     """The integrals over the part of each edge within the support, with s = z sinh t in the one over the solid."""
     kernel, normal, half = s.kernel, s.walls.normal, 0.5 * s.walls.drawn.volume / s.case.particle_spacing
-    tangent = np.stack([-normal[:, 1], normal[:, 0]], axis=1)
+    tangent = cross(np.ones(1), normal)
     z = np.einsum("igk,gk->ig", s.x_gi, normal)
     middle = np.einsum("igk,gk->ig", s.x_gi, tangent)
     reach = np.sqrt(np.maximum(kernel.support**2 - z**2, 0.0))
@@ -49,7 +52,7 @@ def edges(s: "Plain") -> Edges:
     size = np.abs(z)
     t, dt = quadrature(np.arcsinh(start / size), np.arcsinh(end / size))
     solid = np.sign(z) * np.sum(beyond(kernel, size[..., None] * np.cosh(t)) / np.cosh(t) * dt, axis=2)
-    return Edges(z, solid, part.sum(axis=2), np.sum(part * along, axis=2))
+    return Edges(tangent, z, solid, part.sum(axis=2), np.sum(part * along, axis=2))
 
 
 def friction(s: "Plain", e: Edges) -> Array:

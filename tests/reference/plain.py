@@ -75,7 +75,8 @@ class Plain:
         p, u, v = given.pairs or (self.ghost_p[None], given.velocity[None], viscous[None])
         share, pressures, self.surface = given.share, self.p[:, None] + p, given.surface
         if self.case.tension == "none":
-            share = share * faded(self, given.pressure)
+            if given.points is not None:
+                share = share * faded(self, given.points, given.pressure)
             pressures, u, v = released(self, pressures, u, v)
             self.surface = given.surface and released_edges(self, *given.surface)
         self.x_ji = np.concatenate([nearest(self.x[None] - self.x[:, None]), self.x_gi], axis=1)

@@ -107,10 +107,10 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
     drawn = walls_of(walls, dim, size)
     moves = bool(drawn) and drawn[0].body is not None
     body: dict[str, Any] = {"name": "prescribed", "function": drift, "centre": tuple(centre)}
-    free = FreeBody.none(dim)
+    free, carrier = FreeBody.none(dim), drift
     if walls == "free box":
         mass, inertia = 1000.0 * random.uniform(4.0, 8.0, 2) * size.prod()
-        free = FreeBody(mass, inertia, np.array([0.0, -9.81]), *drift(0.0))
+        free = carrier = FreeBody(mass, inertia, np.array([0.0, -9.81]), *drift(0.0))
         body = {"name": "free", "mass": mass, "inertia": inertia, "centre": tuple(centre)}
     case = Custom(
         dimension=dim, particle_spacing=DX, walls=drawn, fluid=[BoxRegion(lower=(0.0,) * dim, upper=tuple(DX * cells))],
@@ -143,8 +143,8 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
     order = np.argsort(system.ids)
     at_rest = run.boundary.velocity * (not moves)
     faces = [[0.0, float(end)] for end in size[:-1]] + [[0.0]] if "box" in walls else None
-    carriers = [free if walls == "free box" else drift] * moves
-    around = Walls(run.boundary._drawn, run.boundary.wall_body, centre[None], carriers, at_rest, size * repeats, faces)
+    around = Walls(run.boundary._drawn, run.boundary.wall_body, centre[None], [carrier] * moves, at_rest,
+                   size * repeats, faces)  # fmt: skip
     plain = Plain(
         case, 20.0, around, lambda time: (gravity + force.acceleration(time), force.gradient(time)),
         rows[order, columns.position], rows[order, columns.velocity], rows[order, columns.density],

@@ -45,6 +45,7 @@ class Assigned:
     them; ``force``: accelerations (n, g, dim) that take the place of all sums; ``rate`` of the walls' densities. Images
     of the fluid have a ``position`` and a ``volume`` of their own, and are seen only by the fluid. Edges: forces per
     volume (n, g, dim) and divergences (n, g) of the ``surface``, and ``gamma`` (n,), by which all sums are divided.
+    ``points`` (g, dim): to which the fluid was interpolated.
     """
 
     pressure: Array
@@ -58,6 +59,7 @@ class Assigned:
     volume: Array | None = None
     surface: tuple[Array, Array] | None = None
     gamma: Array | None = None
+    points: Array | None = None
 
 
 def lifted(s: "Plain", phi: Array, around: Around) -> Array:
@@ -71,7 +73,8 @@ def fixed_ghosts(s: "Plain") -> Assigned:
     walls, case, name = s.walls, s.case, s.case.interpolator.name
     no_slip, balanced = case.slip == "no", case.hydrostatic_lift == "balanced" or name == "adami"
     corrected = case.ghost_velocity == "corrected" and name not in ("adami", "mdbc")
-    around = s.around(walls.ghost if name == "adami" else walls.mirror)
+    points = walls.ghost if name == "adami" else walls.mirror
+    around = s.around(points)
     phi, fine = usable(METHODS[name](around), around)
     wet = around.inside.any(axis=1)
     rise = wet * np.einsum("gk,gk->g", walls.b, around.lift)
@@ -94,7 +97,7 @@ def fixed_ghosts(s: "Plain") -> Assigned:
     velocity = walls.u + half * relative + (1.0 - half) * np.einsum("gkl,gl->gk", reflection, relative)
     if not balanced and corrected:
         velocity -= work(s, velocity, reflection)
-    return Assigned(pressure, velocity, viscous=viscous)
+    return Assigned(pressure, velocity, viscous=viscous, points=points)
 
 
 def work(s: "Plain", velocity: Array, reflection: Array) -> Array:
@@ -113,14 +116,15 @@ def adami_2012(s: "Plain") -> Assigned:
     """The kernel average at the ghost; the velocity of the wall, in the viscosity 2 u_w - u."""
     around = s.around(s.walls.ghost)
     phi = normalised(around)
-    return Assigned(lifted(s, phi, around), s.walls.u, viscous=2.0 * s.walls.u - phi @ s.u)
+    viscous = 2.0 * s.walls.u - phi @ s.u
+    return Assigned(lifted(s, phi, around), s.walls.u, viscous=viscous, points=s.walls.ghost)
 
 
 def fitted(s: "Plain", points: Array, method: Callable[[Around], Array]) -> Assigned:
     """Pressure by a method at points, lifted where it has no weights; the velocity of the wall."""
     around = s.around(points)
     phi, fine = usable(method(around), around)
-    return Assigned(np.where(fine, phi @ s.p, lifted(s, phi, around)), s.walls.u)
+    return Assigned(np.where(fine, phi @ s.p, lifted(s, phi, around)), s.walls.u, points=points)
 
 
 def mdbc_2022(s: "Plain") -> Assigned:
@@ -138,7 +142,7 @@ def mdbc_2025(s: "Plain") -> Assigned:
     at_mirror = (phi if s.case.wall_treatment.options.get("velocity") == "corrected" else normalised(around)) @ s.u
     along = 2.0 * walls.u - at_mirror if s.case.slip == "no" else at_mirror
     viscous = along + np.einsum("gk,gk->g", walls.u - along, walls.normal)[:, None] * walls.normal
-    return Assigned(np.where(wet, phi @ s.p + rise, 0.0), walls.u, wet.astype(float), viscous)
+    return Assigned(np.where(wet, phi @ s.p + rise, 0.0), walls.u, wet.astype(float), viscous, points=walls.mirror)
 
 
 def band_2018(s: "Plain") -> Assigned:
@@ -152,7 +156,8 @@ def hashemi_2012(s: "Plain") -> Assigned:
     phi, _ = usable(normal_derivative(around), around)
     s.condition = max(s.condition, around.condition)
     across = np.einsum("gj,gjk,gk->g", phi, around.offset, walls.normal)
-    return Assigned(phi @ s.p - np.einsum("gk,gk->g", walls.b, walls.normal) * across, walls.u)
+    pressure = phi @ s.p - np.einsum("gk,gk->g", walls.b, walls.normal) * across
+    return Assigned(pressure, walls.u, points=walls.ghost)
 
 
 def pairwise(s: "Plain", pressure: Array, velocity: Array, viscous: Array) -> Assigned:
@@ -193,7 +198,7 @@ def distance_ratio(s: "Plain") -> Assigned:
     viscous = s.walls.u - ratio * (s.u[:, None] - s.walls.u)
     velocity = viscous if options.get("continuity") == "ratio" else np.broadcast_to(found.velocity, viscous.shape)
     pressure = np.broadcast_to(s.bounded(found.pressure), viscous.shape[:2])
-    return Assigned(found.pressure, found.velocity, pairs=(pressure, velocity, viscous))
+    return Assigned(found.pressure, found.velocity, pairs=(pressure, velocity, viscous), points=found.points)
 
 
 def repelled(s: "Plain", size: Any) -> Assigned:
@@ -249,8 +254,7 @@ def mirror_images(s: "Plain") -> Assigned:
 def edge_integrals(s: "Plain") -> Assigned:
     """2 p_i grad gamma_e - A_e b, grad gamma_e = -w0_e n, A_e = c_e 1 + (z_e w0_e n + w1_e t) (x) n."""
     e, normal, b = edges(s), s.walls.normal, s.walls.b
-    tangent = np.stack([-normal[:, 1], normal[:, 0]], axis=1)
-    across = (e.z * e.weight)[:, :, None] * normal + e.moment[:, :, None] * tangent
+    across = (e.z * e.weight)[:, :, None] * normal + e.moment[:, :, None] * e.tangent
     lift = e.solid[:, :, None] * b + across * np.einsum("gk,gk->g", b, normal)[:, None]
     force = -2.0 * (s.p[:, None] * e.weight)[:, :, None] * normal - lift + friction(s, e)
     return Assigned(np.zeros(len(b)), s.walls.u, share=0.0, surface=(force, 2.0 * approach(s) * e.weight))
@@ -263,7 +267,8 @@ def usaw_2013(s: "Plain") -> Assigned:
     push = (s.p[:, None] + s.bounded(pressure)) * e.weight
     force = -push[:, :, None] * s.walls.normal + friction(s, e)
     gamma = np.maximum(1.0 - e.solid.sum(axis=1), 0.05)
-    return Assigned(pressure, s.walls.u, share=0.0, surface=(force, approach(s) * e.weight), gamma=gamma)
+    surface = force, approach(s) * e.weight
+    return Assigned(pressure, s.walls.u, share=0.0, surface=surface, gamma=gamma)
 
 
 TREATMENTS: dict[str, Callable[["Plain"], Assigned]] = {

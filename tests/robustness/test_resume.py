@@ -43,10 +43,10 @@ def interrupted(small: ModuleType, path: Path, step: int = 25, **options: Any) -
 
 
 @pytest.mark.parametrize("stepping", [FIXED, ADAPTIVE], ids=["fixed", "adaptive"])
-@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize(("dimension", "threads"), [(2, 2), (3, 1), pytest.param(3, 2, marks=pytest.mark.long)])
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_twice_n_steps_are_n_steps_and_n_resumed(
-    small: ModuleType, integrator: str, dimension: int, stepping: dict[str, float]
+    small: ModuleType, integrator: str, dimension: int, threads: int, stepping: dict[str, float]
 ) -> None:
     case = small.small_case(dimension, integrator=integrator, **stepping)
     n = 30
@@ -58,7 +58,7 @@ def test_twice_n_steps_are_n_steps_and_n_resumed(
         whole.advance()
     assert max(abs(motion.position[0]) for motion in whole.body_motions().values()) > 1e-5, "no body has moved"
 
-    continued = Simulation(case, threads=2 if dimension == 2 and os.cpu_count() != 1 else 1)
+    continued = Simulation(case, threads=threads if os.cpu_count() != 1 else 1)
     continued.restore(saved)
     for _ in range(n):
         continued.advance()

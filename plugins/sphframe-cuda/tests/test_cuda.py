@@ -33,7 +33,7 @@ def test_a_run_without_a_device_is_refused_before_anything_is_compiled(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("sphframe.simulation.simulation.loop_parameters", None)
+    monkeypatch.setattr("sphframe.simulation.simulation.Components", None)
     result = CliRunner().invoke(app, ["run", "dam-break", "--device", "cuda"])
     assert result.exit_code == 2
     assert "no CUDA device was found" in " ".join(result.output.split())
