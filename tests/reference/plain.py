@@ -4,7 +4,7 @@ It shares nothing with the solver but the ghosts as they were drawn, whose place
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -160,7 +160,7 @@ class Plain:
         self.prepare(time)
         self.accelerate()
         rates = self.density_rate(self.gradient), self.wall_rate()
-        return self.u, self.a, *rates, self.free.velocity, self.free.acceleration
+        return self.u, self.a, *rates, self.free.acceleration
 
     def loads(self) -> Array:
         """Force and moment on each wall, (walls, 3 or 6)."""
@@ -184,12 +184,12 @@ class Plain:
     def kick(self, dt: float) -> None:
         """Advance velocities."""
         self.u = self.u + dt * self.a
-        self.free.velocity = self.free.velocity + dt * self.free.acceleration
+        self.free.kick(dt)
 
     def drift(self, dt: float) -> None:
         """Advance positions."""
         self.x = self.x + dt * self.u
-        self.free.position = self.free.position + dt * self.free.velocity
+        self.free.position = self.free.moved(dt * self.free.velocity)
 
     def symplectic(self, dt: float) -> None:
         """Kick, drift, density, drift, kick."""
@@ -206,14 +206,15 @@ class Plain:
 
     def rk4(self, dt: float) -> None:
         """The classical scheme."""
-        free, time = self.free, self.time
-        start, total = (self.x, self.u, self.rho, self.wall_density, free.position, free.velocity), [0.0] * 6
+        free, time, at_first = self.free, self.time, replace(self.free)
+        start, total = (self.x, self.u, self.rho, self.wall_density, free.velocity, 0.0), [0.0] * 6
         for weight, before, onward in ((1 / 6, 0.0, 0.5), (1 / 3, 0.5, 0.5), (1 / 3, 0.5, 1.0), (1 / 6, 1.0, 0.0)):
-            rates = self.evaluate(time + before * dt)
+            rates = *self.evaluate(time + before * dt), free.rate_since(at_first)
             total = [t + weight * rate for t, rate in zip(total, rates, strict=True)]
             by = total if onward == 0.0 else [onward * rate for rate in rates]
             state = (y + dt * rate for y, rate in zip(start, by, strict=True))
-            self.x, self.u, self.rho, self.wall_density, free.position, free.velocity = state
+            self.x, self.u, self.rho, self.wall_density, free.velocity, moved = state
+            free.position = at_first.moved(moved)
         self.time = time + dt
 
     # observation

@@ -107,11 +107,17 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
     drawn = walls_of(walls, dim, size)
     moves = bool(drawn) and drawn[0].body is not None
     body: dict[str, Any] = {"name": "prescribed", "function": drift, "centre": tuple(centre)}
-    free, carrier = FreeBody.none(dim), drift
+    free: FreeBody = FreeBody.none(dim)
+    carrier: Callable[[float], Motion] = drift
     if walls == "free box":
-        mass, inertia = 1000.0 * random.uniform(4.0, 8.0, 2) * size.prod()
-        free = carrier = FreeBody(mass, inertia, np.array([0.0, -9.81]), *drift(0.0))
-        body = {"name": "free", "mass": mass, "inertia": inertia, "centre": tuple(centre)}
+        mass = 1000.0 * random.uniform(4.0, 8.0) * size.prod()
+        stretch = np.eye(2 * dim - 3) + 0.2 * random.uniform(-1.0, 1.0, (2 * dim - 3,) * 2)
+        inertia = mass * (1.0 + centre @ centre) * stretch @ stretch.T
+        place, rate, growth = drift(0.0)
+        rate[dim:] = random.normal(size=2 * dim - 3)
+        free = carrier = FreeBody(mass, inertia, -9.81 * np.eye(dim)[-1], place, rate, growth)
+        body = {"name": "free", "mass": mass, "centre": tuple(centre)}
+        body["inertia"] = tuple(map(tuple, inertia.tolist())) if dim == 3 else inertia[0, 0]
     case = Custom(
         dimension=dim, particle_spacing=DX, walls=drawn, fluid=[BoxRegion(lower=(0.0,) * dim, upper=tuple(DX * cells))],
         bodies={"tank": body} if moves else {},
@@ -129,10 +135,10 @@ def random_scene(seed: int, dim: int, walls: str = "box", **options: Any) -> tup
     state = run.state()
     rows = state["rows"][:n]
     if moves:
-        place, rate, _ = drift(0.0)
+        place, rate, _ = carrier(0.0)
         rows[:, columns.position] = (rows[:, columns.position] - centre) @ turn(place).T + centre + place[:dim]
         rows[:, columns.velocity] = rate[:dim]
-        for name, value in (("position", place), ("velocity", rate), ("motions", drift(0.0))):
+        for name, value in (("position", place), ("velocity", rate), ("motions", carrier(0.0))):
             state[f"bodies.{name}"][0] = value
     rows[:, columns.position] += 1.5 * random.uniform(-1.0, 1.0, dim) * size * repeats
     rows[:, columns.velocity] += 0.5 * random.normal(size=(n, dim))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from sphframe import Simulation
 from sphframe.cases import Custom
-from sphframe.geometry import BoxRegion, BoxWall
+from sphframe.geometry import BoxRegion, BoxWall, PolygonWall
 
 from .scenes import DX, random_scene
 
@@ -103,3 +103,35 @@ def test_a_tank_that_floats_in_space_and_its_water_keep_their_momentum(seed: int
     assert np.all(np.abs(run.system.bodies.velocity - start) > 1e-6), "nothing has been exchanged"
     for one, other in zip(before, totals(run, 900.0, 70.0), strict=True):
         assert_balance(other, -one)
+
+
+def missing_work(spacing: float) -> float:
+    """The energy that a piston's work on water without dissipation does not account for, over its largest value."""
+    stroke, omega, energy, work, before = 0.01, 10.0 * np.pi, [], [0.0], 0.0
+
+    def motion(time: float) -> tuple[Array, Array, Array]:
+        along = np.array([-0.5 * stroke, 0.0, 0.0])
+        cos, sin = np.cos(omega * time), np.sin(omega * time)
+        return along * (1.0 - cos), along * omega * sin, along * omega**2 * cos
+
+    case = Custom(
+        particle_spacing=spacing, fluid=[BoxRegion(lower=(0.0, 0.0), upper=(1.0, 0.6))],
+        walls=[PolygonWall(name="tank", points=[(1.3, 0.6), (0.0, 0.6), (0.0, 0.0), (1.3, 0.0)]),
+               PolygonWall(name="piston", points=[(1.0, 0.0), (1.0, 0.6)], body="piston")],
+        bodies={"piston": {"name": "prescribed", "function": motion}}, gravity=0.0, sound_speed=20.0, until=1.0,
+        time_step=2e-4, artificial_viscosity=0.0, density_diffusion=0.0, domain=((-1.0, -1.0), (2.0, 2.0)),
+    )  # fmt: skip
+    run = Simulation(case, threads=1)
+    start = sum(run.energies().values())
+    while run.time < 0.2:
+        run.advance()
+        power = -run.wall_forces()["piston"][0][0] * motion(run.time)[1][0]
+        work.append(work[-1] + 0.5 * 2e-4 * (power + before))
+        energy.append(sum(run.energies().values()) - start)
+        before = power
+    return float(np.abs(np.subtract(energy, work[1:])).max() / max(energy))
+
+
+def test_the_water_has_the_energy_of_the_pistons_work() -> None:
+    coarse, fine = missing_work(0.1), missing_work(0.05)
+    assert fine < 0.6 * coarse < 0.6 * 0.03

@@ -12,6 +12,7 @@ from sphframe import Simulation
 from .plain import Plain
 from .scenes import DX, random_scene
 from .treatments import IN_THE_PLANE, TREATMENTS
+from .walls import turn
 
 pytestmark = pytest.mark.filterwarnings("ignore::sphframe.cases.CaseWarning")
 SEEDS = st.integers(0, 10**6)
@@ -41,8 +42,12 @@ def assert_same(run: Simulation, plain: Plain, seed: int) -> None:
         ("wall density", run.boundary.wall_state, plain.wall_density),
     ]
     if np.isfinite(plain.free.mass):
-        quantities += [(name, getattr(run.system.bodies, name)[0], getattr(plain.free, name))
-                       for name in ("position", "velocity")]  # fmt: skip
+        body = run.system.bodies
+        quantities += [
+            ("displacement", body.position[0, : plain.dim], plain.free.position[: plain.dim]),
+            ("turn", turn(body.position[0]), turn(plain.free.position)),
+            ("velocity of the body", body.velocity[0], plain.free.velocity),
+        ]
     if plain.ghosts.position is None:  # ghosts do not count beside images
         near = (np.linalg.norm(plain.x_gi, axis=2) < run.support).any(axis=0)  # others are left as they were
         quantities += [
@@ -99,6 +104,13 @@ def test_the_mirror_lift_and_laminar_viscosity_in_the_plane(seed: int, walls: st
 @given(SEEDS, INTEGRATORS)
 def test_a_free_body_in_the_plane(seed: int, integrator: str) -> None:
     compare(seed, 2, "free box", integrator=integrator)
+
+
+@settings(max_examples=2)
+@given(SEEDS)
+def test_a_free_body_in_space(seed: int) -> None:
+    for integrator in ("symplectic", "rk4"):
+        compare(seed, 3, "free box", integrator=integrator)
 
 
 @settings(max_examples=4)
@@ -210,6 +222,6 @@ def test_many_scenes_of_treatments(treatment: dict[str, Any], dim: int) -> None:
     if dim == 3 and treatment["name"] in IN_THE_PLANE:
         pytest.skip("in two dimensions alone")
     for seed in range(1000, 1000 + MANY):
-        walls = "box" if dim == 3 else ("box", "moving", "at rest", "free box")[seed % 4]
+        walls = ("box", "free box")[seed % 2] if dim == 3 else ("box", "moving", "at rest", "free box")[seed % 4]
         given = (SHEARED, RELEASED, {"slip": "free", "integrator": "rk4"})[seed // 3 % 3]
         compare_walls(treatment, seed, dim, walls, **given)
