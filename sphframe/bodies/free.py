@@ -84,9 +84,10 @@ class Free(RigidBody):
             raise ValueError(f"mass = {self.mass} and density = {self.density} are both given; give one of them")
         if self.inertia is not None:
             tensor = _tensor(self.inertia)
-            if not (np.array_equal(tensor, tensor.T) and np.all(np.linalg.eigvalsh(tensor) > 0.0)):
+            alike = np.allclose(tensor, tensor.T, rtol=0.0, atol=1e-9 * np.abs(tensor).max())
+            if not (alike and np.all(np.linalg.eigvalsh(tensor) > 0.0)):
                 raise ValueError(f"inertia = {self.inertia} must be positive, and a matrix symmetric")
-            object.__setattr__(self, "_inertia", tensor)
+            object.__setattr__(self, "_inertia", 0.5 * (tensor + tensor.T))
 
     def placed(self, surroundings: Surroundings) -> "Free":
         """Return the body with what follows from its ``surroundings`` filled in, and everything checked together."""

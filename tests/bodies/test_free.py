@@ -41,6 +41,15 @@ def test_a_block_in_space_takes_its_tensor() -> None:
     assert body.motion(0.0, *np.zeros((3, 6))).acceleration == pytest.approx([0.0, 0.0, -1.62, 0.0, 0.0, 0.0])
 
 
+def test_a_tensor_is_symmetric_to_round_off() -> None:
+    rows = ((2.0, 0.3, 0.1), (0.3 + 1e-14, 3.0, 0.2), (0.1, 0.2, 4.0))
+    body, still, moment = free(BLOCK, 3, mass=1.0, inertia=rows), np.zeros(6), np.array([0.0, 0.0, 0.0, 1.0, -2.0, 3.0])
+    angular = body.motion(0.0, still, still, moment).acceleration[3:]
+    assert angular == pytest.approx(np.linalg.solve(rows, moment[3:]), rel=1e-12)
+    with pytest.raises(ValueError, match="a matrix symmetric"):
+        Free(mass=1.0, inertia=((2.0, 0.3, 0.1), (0.3 + 1e-6, 3.0, 0.2), (0.1, 0.2, 4.0)))
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [
