@@ -84,8 +84,7 @@ class Free(RigidBody):
             raise ValueError(f"mass = {self.mass} and density = {self.density} are both given; give one of them")
         if self.inertia is not None:
             tensor = _tensor(self.inertia)
-            alike = np.allclose(tensor, tensor.T, rtol=0.0, atol=1e-9 * np.abs(tensor).max())
-            if not (alike and np.all(np.linalg.eigvalsh(tensor) > 0.0)):
+            if not 1e9 * np.abs(tensor - tensor.T).max() < np.linalg.eigvalsh(tensor).min():
                 raise ValueError(f"inertia = {self.inertia} must be positive, and a matrix symmetric")
             object.__setattr__(self, "_inertia", 0.5 * (tensor + tensor.T))
 
