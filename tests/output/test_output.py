@@ -249,6 +249,7 @@ def test_disk_full_keeps_what_was_written(tmp_path: Path) -> None:
 import resource, runpy, sys
 fake = runpy.run_path({str(Path(__file__).with_name("fake_simulation.py"))!r})
 from sphframe.errors import OutputError
+sys.dont_write_bytecode = True  # it would be truncated, and other processes would read it
 resource.setrlimit(resource.RLIMIT_FSIZE, (1_000_000, 1_000_000))
 simulation = fake["FakeSimulation"](particles=2000)
 writer = fake["NetCDFWriter"]({str(path)!r})

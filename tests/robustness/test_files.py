@@ -31,12 +31,18 @@ def command_line(folder: Path, *arguments: str, before: str = "") -> subprocess.
     )  # fmt: skip
 
 
+NO_LARGE_FILES = """
+import resource, sys
+sys.dont_write_bytecode = True  # it would be truncated, and other processes would read it
+resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000))
+"""
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="file size limits are POSIX")
 def test_a_full_disk_stops_the_run_and_it_resumes_when_there_is_space(small: ModuleType, tmp_path: Path) -> None:
-    limit = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000))"
     stopped = command_line(
         tmp_path, "run", "hydrostatic-tank", *TANK, "--until", "0.5", "--threads", "1", "--checkpoint-interval", "0.02",
-        before=limit,
+        before=NO_LARGE_FILES,
     )  # fmt: skip
     assert stopped.returncode == 2, stopped.stderr
     assert "the disk is full or the size limit is reached" in stopped.stderr
