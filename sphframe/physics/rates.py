@@ -12,6 +12,7 @@ from sphframe.neighbours.sight import WHOLE
 from sphframe.physics.body_force import body_force
 from sphframe.physics.continuity import diffusive_flux
 from sphframe.physics.density_gradient import renormalised_2d, renormalised_3d
+from sphframe.physics.lanes import read_lanes
 from sphframe.physics.momentum import pair_stress
 
 PER_WHOLE = 1.0 / WHOLE
@@ -52,16 +53,9 @@ def fluid_sums(  # type: ignore[no-untyped-def]
         bx, by, bz = local_array(LANES), local_array(LANES), local_array(LANES)
         xx, xy, yy = local_array(LANES), local_array(LANES), local_array(LANES)
         xz, yz, zz = local_array(LANES), local_array(LANES), local_array(LANES)
+        read_lanes(rows, first, present, COLUMNS, x, y, z, u, v, w, density, pressure)
         for a in range(LANES):
-            i = first + min(a, present - 1)  # unused lanes repeat the last particle
-            x[a] = rows[i, 0]
-            y[a] = rows[i, 1]
-            z[a] = rows[i, COLUMNS.z]
-            u[a] = rows[i, COLUMNS.u]
-            v[a] = rows[i, COLUMNS.v]
-            w[a] = rows[i, COLUMNS.w]
-            density[a] = rows[i, COLUMNS.density]
-            pressure[a] = rows[i, COLUMNS.pressure]
+            i = first + min(a, present - 1)
             gx[a] = gradient[i, 0]
             gy[a] = gradient[i, 1]
             gz[a] = gradient[i, COLUMNS.z]
@@ -72,14 +66,9 @@ def fluid_sums(  # type: ignore[no-untyped-def]
         for kind in range(KINDS):
             for k in range(0 if kind == 0 else fluid, fluid if kind == 0 else both):
                 j = lists[c, k]
-                xj = rows[j, 0]
-                yj = rows[j, 1]
-                zj = rows[j, COLUMNS.z]
-                uj = rows[j, COLUMNS.u]
-                vj = rows[j, COLUMNS.v]
-                wj = rows[j, COLUMNS.w]
-                density_j = rows[j, COLUMNS.density]
-                pressure_j = rows[j, COLUMNS.pressure]
+                xj, yj, zj = rows[j, 0], rows[j, 1], rows[j, COLUMNS.z]
+                uj, vj, wj = rows[j, COLUMNS.u], rows[j, COLUMNS.v], rows[j, COLUMNS.w]
+                density_j, pressure_j = rows[j, COLUMNS.density], rows[j, COLUMNS.pressure]
                 scale = -parameters.gradient_scale * rows[j, COLUMNS.volume]
                 m = j if j < n else 0  # ghosts have no gradient; their diffusion is computed but not used
                 gxj = gradient[m, 0]

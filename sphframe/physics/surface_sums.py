@@ -82,10 +82,9 @@ def surface_reaction(  # type: ignore[no-untyped-def]
     rows, fluid_count, lists, fluid_counts, ghost_counts, seen_shares, ghost_walls, shares, centres, walls,
     images, parameters, partial,
 ):  # fmt: skip
-    """Write force and moment of each wall to ``partial``; all arguments as in :func:`wall_reaction`."""
+    """Add force and moment of each wall to ``partial``; all arguments as in :func:`wall_reaction`."""
     chunks = partial.shape[0]
     for chunk in numba.prange(chunks):
-        partial[chunk] = 0.0
         for i in range(chunk * fluid_count // chunks, (chunk + 1) * fluid_count // chunks):
             c = i // LANES
             fluid = FluidSide(

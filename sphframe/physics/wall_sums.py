@@ -11,6 +11,7 @@ from sphframe.compiled import LANES, fma, local_array, nearest
 from sphframe.compiled.stand_ins import COLUMNS, DIM, FORCE, GRADIENT, MASKED, MORRIS, PERIODIC, SEEN, SLOTS, SUPPORT
 from sphframe.interfaces import FluidSide, Separation
 from sphframe.neighbours.sight import WHOLE
+from sphframe.physics.lanes import read_lanes
 from sphframe.physics.momentum import pair_stress
 from sphframe.physics.wall_pair import wall_side
 
@@ -37,40 +38,27 @@ def wall_sums(  # type: ignore[no-untyped-def]
     for c in numba.prange(fluid_counts.shape[0]):
         if ghost_counts[c] == 0:
             continue
-        first = c * LANES
+        first, fluid = c * LANES, fluid_counts[c]
         present = min(LANES, n - first)
-        fluid = fluid_counts[c]
         source = images.rows if IMAGES else rows
         x, y, z = local_array(LANES), local_array(LANES), local_array(LANES)
         u, v, w = local_array(LANES), local_array(LANES), local_array(LANES)
         density, pressure = local_array(LANES), local_array(LANES)
         compression = local_array(LANES)
         fx, fy, fz = local_array(LANES), local_array(LANES), local_array(LANES)
+        read_lanes(rows, first, present, COLUMNS, x, y, z, u, v, w, density, pressure)
         for a in range(LANES):
-            i = first + min(a, present - 1)  # unused lanes repeat the last particle
-            x[a] = rows[i, 0]
-            y[a] = rows[i, 1]
-            z[a] = rows[i, 2] if DIM == 3 else 0.0
-            u[a] = rows[i, COLUMNS.u]
-            v[a] = rows[i, COLUMNS.v]
-            w[a] = rows[i, COLUMNS.w] if DIM == 3 else 0.0
-            density[a] = rows[i, COLUMNS.density]
-            pressure[a] = rows[i, COLUMNS.pressure]
             compression[a] = fx[a] = fy[a] = fz[a] = 0.0
         for k in range(0 if IMAGES else fluid, fluid if IMAGES else fluid + ghost_counts[c]):
             j = lists[c, k]
             for s in range(images.counts[j] if IMAGES else 1):
                 row = SLOTS * j + s if IMAGES else j
                 g = images.ghost[row] if IMAGES else j - n
-                xj = source[row, 0]
-                yj = source[row, 1]
-                zj = source[row, 2] if DIM == 3 else 0.0
+                xj, yj, zj = source[row, 0], source[row, 1], source[row, 2] if DIM == 3 else 0.0
                 scale = -parameters.gradient_scale * source[row, COLUMNS.volume]
                 wall = wall_side(source, row, walls, g, COLUMNS)
                 for a in range(LANES):
-                    dx = xj - x[a]
-                    dy = yj - y[a]
-                    dz = zj - z[a]
+                    dx, dy, dz = xj - x[a], yj - y[a], zj - z[a]
                     if PERIODIC:
                         dx = nearest(dx, parameters, 0)
                         dy = nearest(dy, parameters, 1)

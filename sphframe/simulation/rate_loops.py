@@ -45,19 +45,18 @@ class RateLoops:
     ) -> None:
         self.shifting = shifting
         own = walls.seen, walls.force, walls.surface
-        as_assigned = own == (None, None, None) and walls.friction and attracts and not walls.own_viscous_velocity
-        as_assigned = as_assigned and not images
+        changed = images or walls.own_viscous_velocity or not (attracts and walls.friction)
+        as_assigned = own == (None, None, None) and not changed
         bound = {
             **parts,
             "AS_ASSIGNED": as_assigned,
+            "SEEN": make_seen(walls, attracts=attracts),
+            "FORCE": walls.force or _no_force,
             "FORCES": walls.force is not None,
             "IMAGES": images,
             "SLOTS": most_images(parts["DIM"]),
+            "KINDS": 2 if as_assigned else 1,
         }
-        if not as_assigned:
-            bound["KINDS"] = 1
-            bound["SEEN"] = make_seen(walls, attracts=attracts)
-            bound["FORCE"] = walls.force or _no_force
         over_walls, reaction = wall_sums, wall_reaction
         if walls.surface is not None:
             over_walls, reaction = surface_sums, surface_reaction
@@ -102,7 +101,7 @@ class RateLoops:
         centres: Array,
         partial: Array,
     ) -> None:
-        """Write parts of the loads on ``walls``, see :func:`sphframe.physics.wall_force.wall_reaction`."""
+        """Add parts of the loads on ``walls``, see :func:`sphframe.physics.wall_force.wall_reaction`."""
         self._reaction(
             rows, lists.fluid_count, lists.fluid, lists.fluid_counts, lists.ghost_counts, lists.shares, walls,
             shares, centres, boundary.arrays, boundary.images, parameters, partial,

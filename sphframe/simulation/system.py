@@ -221,7 +221,7 @@ class FluidSystem(PackedSystem):
 
     def react(self, walls: IntArray, shares: Shares, centres: Array) -> Array:
         """Return the loads on the ``walls`` (g,) of the ghosts, a sum over chunks; see :class:`RateLoops`."""
-        partial = np.empty((64, len(centres), self.bodies.size))
+        partial = np.zeros((64, len(centres), self.bodies.size))
         self.loops.react(self.rows, *self.around, self.parameters, walls, shares, centres, partial)
         return np.asarray(partial.sum(axis=0))
 

@@ -145,7 +145,7 @@ def test_wall_reaction_is_opposite_to_what_ghosts_do_to_the_fluid(dim, hidden):
     ghosts = len(cloud.rows) - cloud.fluid_count
     walls = (np.arange(ghosts) % 2).astype(np.int64)
     nothing = np.zeros((ghosts, dim))
-    partial = np.full((7, 2, 3 if dim == 2 else 6), np.nan)
+    partial = np.zeros((7, 2, 3 if dim == 2 else 6))
     specialise(wall_reaction, cloud.parts())(
         cloud.rows, cloud.fluid_count, cloud.lists, cloud.fluid_counts, cloud.ghost_counts, cloud.shares, walls,
         Shares(np.full_like(walls, -1), nothing, nothing), np.zeros((2, dim)), cloud.walls(), Images.of(0, dim),

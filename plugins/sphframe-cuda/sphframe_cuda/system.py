@@ -232,7 +232,8 @@ class CudaSystem(FluidSystem):
 
     def react(self, walls: Any, shares: Any, centres: Any) -> Any:
         """Return the loads on the ``walls`` (g,) of the ghosts."""
-        partial, fetched_before = room((_CHUNKS, len(centres), self.bodies.size)), self._fetched_after == Loop.launches
+        partial = put(np.zeros((_CHUNKS, len(centres), self.bodies.size)))
+        fetched_before = self._fetched_after == Loop.launches
         given = put(walls), type(shares)(*map(put, shares)), put(centres), partial
         self.loops.react(self.rows, *self.around, self.parameters, *given)
         if fetched_before:  # this loop has changed no rows
