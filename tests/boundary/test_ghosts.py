@@ -8,7 +8,8 @@ from sphframe.boundary.filling import Filling
 from sphframe.boundary.fixed_ghosts import FixedGhosts
 from sphframe.equations_of_state.linear import Linear
 from sphframe.geometry import BoxRegion, BoxWall, Polygon, PolygonWall, fill
-from sphframe.interfaces import Motion, RigidBody, Status, WallContext
+from sphframe.interfaces import BoundaryInterpolator, EvaluationPoint, Motion, RigidBody, Status, Traits, WallContext
+from sphframe.interfaces.traits import TOO_FEW
 from sphframe.kernels import compiled_kernel
 from sphframe.kernels.gaussian import RenormalisedGaussian
 from sphframe.neighbours import NeighbourLists
@@ -51,7 +52,7 @@ class Basin:
             wall = BoxWall(lower=region.lower, upper=region.upper, open_faces=open_faces, body=body and "body")
         else:
             region = Polygon(points=wall.points)
-        interpolator = create("interpolators", method)
+        interpolator = create("interpolators", method) if isinstance(method, str) else method
         self.boundary = Boundary(
             (wall,),
             {"body": body} if body else {},
@@ -226,3 +227,54 @@ def test_dry_ghosts_have_no_pressure_and_the_velocity_of_the_wall():
     np.testing.assert_array_equal(velocity, np.broadcast_to([0.5, 0.0], velocity.shape))
     assert (pressure == 0.0).all()
     assert (density == DENSITY).all()
+
+
+class Refuses(BoundaryInterpolator):
+    """Weights that want more points than there ever are, so that the fallback takes their place."""
+
+    traits = Traits()
+
+    def point_weights(self, kernel, dim):
+        def weights(offsets, distances, kernel_values, volumes, support, lift, out):
+            return TOO_FEW
+
+        return weights
+
+
+class RefusesWithoutKernel(Refuses):
+    """The same weights, for which the loop computes no values of the kernel."""
+
+    traits = Traits(kernel_independent=True)
+
+
+def test_the_fallback_knows_the_kernel_though_the_method_needs_none():
+    found = []
+    for method in (Refuses(), RefusesWithoutKernel()):
+        basin = Basin(method)
+        basin.rows[: basin.n, basin.columns.pressure] = np.random.default_rng(1).uniform(1e3, 2e3, basin.n)
+        found.append(basin.fill())
+    for one, other in zip(*found, strict=True):
+        np.testing.assert_array_equal(one, other)
+    assert found[0][0].any()
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.4])
+def test_a_paddle_takes_its_part_of_the_bed_below_it_wherever_it_is(shift):
+    """The ghosts of the bed just behind the foot of the paddle belong to it, too, where its body has carried it."""
+    walls = [
+        PolygonWall(name="paddle", points=[(0.0, 0.6), (0.0, 0.0)], body="paddle", one_sided=True),
+        PolygonWall(name="tank", points=[(-1.0, 0.0), (1.2, 0.0), (1.2, 0.6)]),
+    ]
+    water = BoxRegion(lower=(0.0, 0.0), upper=(1.2, 0.5))
+    boundary = Boundary(
+        walls, {"paddle": Still()}, EvaluationPoint.MIRROR, fluid=[water], spacing=SPACING, support=0.3, no_slip=False
+    )
+    place = Motion(np.array([shift, 0.0, 0.0]), np.zeros(3), np.zeros(3))
+    boundary.move([place], np.zeros((boundary.count, 9)), np.zeros(2), DENSITY)
+    shares = boundary.corner_shares([place])
+    below = (boundary.wall == 1) & (boundary.position[:, 1] < 0.0)
+    near = below & (boundary.position[:, 0] < shift) & (boundary.position[:, 0] > shift - 0.3)
+    assert near.sum() >= 6
+    assert np.all(shares.wall[near] == 0)
+    np.testing.assert_allclose(shares.normal[near], [[-1.0, 0.0]] * near.sum(), atol=1e-12)
+    assert np.all(shares.wall[below & (boundary.position[:, 0] > shift) & (boundary.position[:, 0] < 1.1)] == -1)

@@ -36,7 +36,7 @@ ROOMS = {
     "physics": "reference physics kernels simulation/test_shifting.py simulation/test_open_boundaries.py"
     " ../plugins/sphframe-edge-integrals/tests",
     "boundary": "reference boundary physics simulation/test_tension.py simulation/test_simulation.py"
-    " simulation/test_thin_walls.py",
+    " simulation/test_thin_walls.py simulation/test_saved_state.py",
     "neighbours": "neighbours reference simulation/test_periodic.py simulation/test_thin_walls.py",
     "simulation": "simulation robustness/test_guards.py robustness/test_resume.py robustness/test_limits.py reference",
     "bodies": "bodies reference simulation/test_body_force.py",
