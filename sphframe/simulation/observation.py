@@ -160,14 +160,15 @@ class Observation:
         The potential energy -m (f0.x + x.G x / 2) is that in the present force per mass f0 + G x, and zero at the
         origin; the internal energy is p^2 V / (2 rho c0^2), its leading order.
         """
-        fields = self._fluid()
-        mass = self.system.host_rows[: self.fluid_count, self.columns.mass]
-        compliance = mass / (fields.density**2 * self.sound_speed**2)
-        place = fields.position + self.system.turns * self.boundary.periods.length
+        fields, periods = self._fluid(), self.boundary.periods
+        mass = self.system.host_rows[: self.fluid_count, self.columns.mass].copy()
+        place = fields.position + self.system.turns * periods.length if periods else fields.position
+        speed2 = np.einsum("ij,ij->i", fields.velocity, fields.velocity)
+        strain = fields.pressure / (fields.density * self.sound_speed)
         return {
-            "kinetic": 0.5 * float(np.einsum("i,ij,ij->", mass, fields.velocity, fields.velocity)),
+            "kinetic": 0.5 * float(np.einsum("i,i->", mass, speed2)),
             "potential": self._potential_energy(mass, place),
-            "internal": 0.5 * float(np.einsum("i,i,i->", compliance, fields.pressure, fields.pressure)),
+            "internal": 0.5 * float(np.einsum("i,i->", mass, strain**2)),
         }
 
     def _potential_energy(self, mass: Array, position: Array) -> float:
