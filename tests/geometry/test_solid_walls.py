@@ -174,6 +174,15 @@ def test_reflections_at_faces_edges_and_corners():
     np.testing.assert_allclose(at[-0.5, -1.5, 10.5], np.diag([-1, -1, -1]), atol=1e-12)
 
 
+def test_mirror_points_in_a_sharp_edge_are_within_the_fluid(tmp_path):
+    """Those of one face of a wedge of 22 degrees lie behind the other, unless they are moved."""
+    path = tmp_path / "wedge.stl"
+    trimesh.creation.extrude_polygon(shapely.Polygon([(0, 0), (1.0, 0), (1.0, 0.4)]), 0.5).export(path)
+    group = group_of(MeshWall(name="wedge", file=str(path)), fluid=Mesh(file=str(path)), spacing=0.05)
+    ghosts = group.ghosts(0.05, 3)
+    assert group.domain.feet(ghosts.mirror).depth.max() < 0.0
+
+
 def test_the_edge_between_an_obstacle_and_the_bed_is_shared():
     block = BoxWall(name="block", lower=(0.6, 0.1, 0), upper=(0.8, 0.3, 0.3))
     ghosts = group_of(TANK, block).ghosts(0.02, 4)

@@ -155,7 +155,8 @@ def compare_walls(treatment: dict[str, Any], seed: int, dim: int, walls: str, **
 @settings(max_examples=2)
 @given(SEEDS, st.sampled_from(["box", "moving", "at rest"]))
 def test_treatments_in_the_plane(treatment: dict[str, Any], seed: int, walls: str) -> None:
-    compare_walls(treatment, seed, 2, walls, **SHEARED)
+    for integrator in ("symplectic", "rk4"):
+        compare_walls(treatment, seed, 2, walls, integrator=integrator, **SHEARED)
 
 
 RELEASED = {**SHEARED, "tension": "none"}

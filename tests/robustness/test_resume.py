@@ -88,6 +88,18 @@ def test_interrupted_and_resumed_files_are_the_same(small: ModuleType, tmp_path:
     assert [file.name for file in sorted(tmp_path.iterdir())] == ["run.nc", "whole.nc"], "the checkpoint is removed"
 
 
+def test_a_resumed_file_says_that_its_run_is_running(small: ModuleType, tmp_path: Path) -> None:
+    path = interrupted(small, tmp_path / "run.nc")
+    said = []
+
+    def look(simulation: Any) -> None:
+        with open_dataset(path) as dataset:
+            said.append((dataset.attrs["run_status"], dataset.attrs["run_message"]))
+
+    resume(path, threads=1, hooks=[small.At(30, look)])
+    assert said == [("running", "")]
+
+
 def test_writing_checkpoints_changes_nothing(small: ModuleType, tmp_path: Path) -> None:
     without = run(small.small_case(2), output=tmp_path / "a.nc", threads=1, checkpoint_every=None)
     often = run(small.small_case(2), output=tmp_path / "b.nc", threads=1, checkpoint_interval=1e-9)

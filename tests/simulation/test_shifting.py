@@ -119,6 +119,38 @@ def test_a_shifted_particle_takes_the_fields_of_its_new_place() -> None:
         np.testing.assert_allclose((fluid - before)[:, column], flux - carried, atol=1e-9 * np.abs(flux).max())
 
 
+@pytest.mark.filterwarnings("ignore::sphframe.cases.CaseWarning")
+@pytest.mark.parametrize("tensile_control", ["off", "on"])
+def test_water_beyond_a_plate_does_not_count(tensile_control: str) -> None:
+    """Shifts and fields of the water on the left are the same with and without water on the right."""
+    ends = []
+    for right in (0.3, 0.5):
+        case = Custom(
+            particle_spacing=DX, until=1.0, shifting=1.0, tensile_control=tensile_control, tension="free",
+            walls=[
+                PolygonWall(name="tank", points=[(0, 1), (0, 0), (1.2, 0), (1.2, 1)]),
+                PolygonWall(name="plate", points=[(0.6, 0), (0.6, 0.9)]),
+            ],
+            fluid=[
+                PolygonRegion(points=[(0, 0), (0.6, 0), (0.6, 0.5), (0, 0.5)]),
+                PolygonRegion(points=[(0.6, 0), (1.2, 0), (1.2, right), (0.6, right)]),
+            ],
+            time_step=1e-3, sound_speed=20.0,
+        )  # fmt: skip
+        simulation = Simulation(case, threads=1)
+        left = simulation.fields().position[:, 0] < 0.6
+        rows = simulation.system.rows[: simulation.fluid_count]
+        beside = rows[:, 0] < 0.6
+        rows[beside, :2] += 0.1 * DX * np.sin(40.0 * rows[beside, :2] + 3.0 * rows[beside, 1::-1])
+        simulation.system.find_neighbours()
+        simulation.system.evaluate(0.0)
+        for _ in range(3):
+            simulation.advance()
+        fields = simulation.fields()
+        ends.append(np.column_stack([fields.position, fields.velocity, fields.density])[left])
+    np.testing.assert_allclose(*ends, rtol=0.0, atol=1e-9)
+
+
 def test_a_lattice_that_repeats_itself_is_not_shifted() -> None:
     case = Custom(
         particle_spacing=DX, until=1.0, gravity=0.0, sound_speed=20.0, shifting=1.0, periodic=("x", "y"), depth=0.6,
