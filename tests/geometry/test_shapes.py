@@ -15,7 +15,19 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
-from sphframe.geometry import SHAPES, AnyShape, Curve, Ellipse, Mesh, PointsFile, Polygon, Polyline, Region, sampled
+from sphframe.geometry import (
+    SHAPES,
+    AnyShape,
+    Arc,
+    Curve,
+    Ellipse,
+    Mesh,
+    PointsFile,
+    Polygon,
+    Polyline,
+    Region,
+    sampled,
+)
 
 made = TypeAdapter(AnyShape).validate_python
 BOX = {"shape": "box", "lower": (0, 0), "upper": (2, 1)}
@@ -47,6 +59,17 @@ def test_closed_shapes_have_their_area(table: dict[str, Any], area: float) -> No
         assert found.area == pytest.approx(area, abs=error)
     lower, upper = shape.bounds()
     np.testing.assert_allclose([*lower, *upper], shape.geometry(1e-6).bounds, atol=0.003)
+
+
+@pytest.mark.parametrize("tolerance", [0.1, 0.01, 1e-4])
+def test_chords_of_an_arc_are_within_the_tolerance(tolerance: float) -> None:
+    line = Arc(centre=(0, 0), radius=2.0, start=20.0, stop=320.0).geometry(tolerance)
+    angle = np.radians(np.linspace(20.0, 320.0, 20_001))
+    away = shapely.distance(shapely.points(2.0 * np.stack([np.cos(angle), np.sin(angle)], axis=1)), line)
+    assert tolerance / 2 < away.max() <= tolerance
+    assert Arc(centre=(0, 0), radius=2.0, start=20.0, stop=20.5).geometry(tolerance).length == pytest.approx(
+        2.0 * math.radians(0.5), rel=1e-4
+    )
 
 
 @pytest.mark.parametrize("tolerance", [0.1, 0.01, 1e-4])

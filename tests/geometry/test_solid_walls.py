@@ -183,6 +183,14 @@ def test_mirror_points_in_a_sharp_edge_are_within_the_fluid(tmp_path):
     assert group.domain.feet(ghosts.mirror).depth.max() < 0.0
 
 
+def test_a_mesh_is_drawn_by_its_sharp_edges_and_three_sections(tmp_path):
+    path = tmp_path / "box.stl"
+    trimesh.creation.box((1.0, 2.0, 3.0)).export(path)
+    lines = MeshWall(name="box", file=str(path)).outline()
+    lengths = sorted(float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum()) for line in lines)
+    np.testing.assert_allclose(lengths, [*[1.0] * 4, *[2.0] * 4, *[3.0] * 4, 6.0, 8.0, 10.0], rtol=1e-6)
+
+
 def test_the_edge_between_an_obstacle_and_the_bed_is_shared():
     block = BoxWall(name="block", lower=(0.6, 0.1, 0), upper=(0.8, 0.3, 0.3))
     ghosts = group_of(TANK, block).ghosts(0.02, 4)

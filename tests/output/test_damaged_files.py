@@ -108,6 +108,9 @@ def test_whatever_is_wrong_with_a_file_is_told_or_does_not_matter(sound: Path, t
     assert {what for what, why in refused.items() if "a variable density of other" in why} == {
         "another type", "other dimensions"
     }  # fmt: skip
+    assert {what for what, why in refused.items() if "dimensions that contradict each other" in why} == {
+        "no dimension outline"
+    }  # fmt: skip
     with open_dataset(sound) as dataset:
         assert dataset.attrs["completed"] == "yes"
 
