@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from sphframe.bodies import Free, SpringMass
+from sphframe.bodies import Free, Prescribed, SpringMass
 from sphframe.bodies.body_forces import ForceSeries
 from sphframe.errors import InputError
 from sphframe.interfaces import RigidBody
@@ -83,6 +83,10 @@ def test_a_series_of_accelerations_is_linear_within_its_table_and_nothing_outsid
     times = np.array([0.0, 0.99, 1.0, 1.5, 2.0, 3.0, 3.01, 9.0])
     expected = [[2.0 + 2.0 * (t - 1.0), -4.0 + 4.0 * (t - 1.0)] if 1.0 <= t <= 3.0 else [0.0, 0.0] for t in times]
     assert [force.acceleration(t).tolist() for t in times] == expected
+
+
+def test_a_prescribed_body_turns_about_the_origin_by_default() -> None:
+    assert not np.any(Prescribed(lambda time: (NOTHING, NOTHING, NOTHING)).centre)
 
 
 def test_spring_wall_stands_still_below_its_threshold_and_stops_dead_at_its_stop() -> None:
