@@ -7,6 +7,7 @@ import pytest
 
 from sphframe import InputError, Simulation, SimulationError, load_case
 from sphframe.cases import Custom
+from sphframe.interfaces import Motion
 
 TANK = {"shape": "polygon", "name": "tank", "points": [[0, 0.6], [0, 0], [1, 0], [1, 0.6]]}
 
@@ -48,6 +49,16 @@ class TestContact:
         assert motion.position[1] == pytest.approx(-0.02 - 9.81 / omega**2, abs=2e-5)
         assert motion.position[2] == pytest.approx(0.0, abs=2e-3)  # the points lie unevenly
         assert np.abs(motion.velocity).max() < 1e-3
+
+    def test_a_spring_and_a_damper_push_a_box_back(self) -> None:
+        run = Simulation(
+            case({"box": {"name": "free", "density": 3000.0}}, hull("box", 0.7, 0.02, 0.2, 0.12)), threads=1
+        )
+        omega, loads = 0.2 * run.sound_speed / run.smoothing_length, np.zeros((1, 3))
+        motion = Motion(np.array([0.0, -0.021, 0.0]), np.array([0.0, -0.3, 0.0]), np.zeros(3))
+        run.system.contacts.add_loads([motion], loads)
+        mass = 3000.0 * 0.2 * 0.12
+        assert loads[0, 1] == pytest.approx(mass * (omega**2 * 0.001 + 2.0 * 0.7 * omega * 0.3), rel=1e-9)
 
     def test_a_box_that_lands_on_an_edge_comes_to_lie_flat(self) -> None:
         turn = 0.2
