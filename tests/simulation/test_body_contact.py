@@ -60,6 +60,33 @@ class TestContact:
         mass = 3000.0 * 0.2 * 0.12
         assert loads[0, 1] == pytest.approx(mass * (omega**2 * 0.001 + 2.0 * 0.7 * omega * 0.3), rel=1e-9)
 
+    @pytest.mark.parametrize("turn", [0.3, 1.5, -2.0])
+    def test_forces_turn_with_the_bodies(self, turn: float) -> None:
+        boxes = {name: {"name": "free", "density": 1000.0} for name in ("one", "two")}
+        hulls = hull("one", 0.4, 0.3, 0.12, 0.12), hull("two", 0.6, 0.34, 0.12, 0.16)
+        run = Simulation(case(boxes, *hulls), threads=1)
+        centres, middle = run.boundary.centres, np.array([0.55, 0.38])
+        found = []
+        for angle in (0.0, turn):
+            matrix = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+            motions, loads = [], np.zeros((2, 3))
+            for k, u in enumerate((0.5, -0.5)):  # they overlap by a hundredth of a metre, and come nearer
+                place = centres[k] - [0.09 * k, 0.0]
+                shift = matrix @ (place - middle) + middle - centres[k]
+                motions.append(Motion(np.append(shift, angle), np.append(matrix @ [u, 0.0], 0.2), np.zeros(3)))
+            run.system.contacts.add_loads(motions, loads)
+            found.append(np.column_stack([loads[:, :2] @ matrix, loads[:, 2]]))
+        assert found[0][1, 0] > 100.0
+        np.testing.assert_allclose(found[1], found[0], rtol=1e-9, atol=1e-9)
+
+    def test_a_box_above_the_end_of_a_wall_does_not_touch_it(self) -> None:
+        run = Simulation(
+            case({"box": {"name": "free", "density": 1000.0}}, hull("box", 0.7, 0.2, 0.12, 0.12)), threads=1
+        )
+        loads = np.zeros((1, 3))
+        run.system.contacts.add_loads([Motion(np.array([0.24, 0.42, 0.0]), np.zeros(3), np.zeros(3))], loads)
+        assert run.system.contacts.deepest is None
+
     def test_a_box_that_lands_on_an_edge_comes_to_lie_flat(self) -> None:
         turn = 0.2
         corners = (np.array([[-0.1, -0.06], [-0.1, 0.06], [0.1, 0.06], [0.1, -0.06]])
