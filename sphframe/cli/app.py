@@ -461,7 +461,8 @@ def _bench(
         list[str] | None,
         typer.Option(
             metavar="SECTION",
-            help="peak, rest, developed, 3d, methods, walls, memory or start-up; repeatable, or with commas",
+            help="peak, rest, developed, 3d, developed-3d (minutes, only if asked for), methods, walls, memory or"
+            " start-up; repeatable, or with commas",
         ),
     ] = None,
 ) -> None:

@@ -11,6 +11,7 @@ import pytest
 
 from sphframe import Simulation
 from sphframe.benchmark import SECTIONS, BenchmarkReport, bench, check_request, methods, start_up, steps, walls
+from sphframe.benchmark import report as report_module
 from sphframe.benchmark.flow import DEVELOPED, dam_break, run_to_developed_flow
 from sphframe.benchmark.fresh import Fresh, run_fresh
 from sphframe.benchmark.memory import array_bytes, measure_here
@@ -306,6 +307,28 @@ def test_a_request_out_of_bounds_is_refused(
 
 def test_every_section_can_be_asked_for() -> None:
     check_request([3000], [1], SECTIONS)
+
+
+@pytest.mark.parametrize(
+    ("particles", "only", "measured"),
+    [
+        (3000, (), [(2, "rest"), (2, "developed"), (3, "rest")]),
+        (60_000, (), [(2, "rest"), (3, "rest")]),
+        (60_000, ("developed", "3d"), [(2, "developed"), (3, "rest")]),
+        (60_000, ("developed-3d",), [(3, "developed")]),
+    ],
+)
+def test_developed_flow_of_many_particles_and_in_space_is_measured_if_it_is_asked_for(
+    particles: int, only: tuple[str, ...], measured: list[tuple[int, str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found: list[tuple[int, str]] = []
+    monkeypatch.setattr(report_module, "measure_steps", lambda count, *flow: found.append(flow[:2]) or [])
+    for name in ("measure_methods", "measure_walls"):
+        monkeypatch.setattr(report_module, name, lambda *given: [])
+    for name in ("measure_peak", "measure_memory", "measure_start_up"):
+        monkeypatch.setattr(report_module, name, lambda *given: None)
+    bench([particles], [1], only)
+    assert found == measured
 
 
 # peak
