@@ -21,6 +21,7 @@ RUNS = {
     "floating-body.nc": "floating-body --set particle_spacing=0.03 --until 2",
     "solitary-wave-fixed-wall.nc": "solitary-wave-fixed-wall --set particle_spacing=0.025 --until 6",
     "dam-break-3d.nc": "dam-break-3d",
+    "fine.nc": "dam-break-3d --set particle_spacing=0.0275 --until 0.9 --output fine.nc",
     "poiseuille.nc": "poiseuille --set particle_spacing=0.0625 --until 0.5",
 }
 """the file of each run, and the arguments of ``sphframe run`` that make it"""
@@ -30,6 +31,7 @@ PICTURES: dict[str, tuple[str, dict[str, Any]]] = {
     "gallery_floating_body": ("floating-body.nc", {}),
     "gallery_wave": ("solitary-wave-fixed-wall.nc", {}),
     "gallery_3d": ("dam-break-3d.nc", {"times": [0.4, 0.6, 0.9, 1.4]}),
+    "gallery_oblique": ("fine.nc", {"field": "speed", "times": [0.4, 0.6, 0.75, 0.9], "oblique": True}),
     "gallery_exact": ("poiseuille.nc", {"field": "speed"}),
 }
 """the run of each picture and how it is drawn"""

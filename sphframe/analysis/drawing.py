@@ -240,7 +240,7 @@ def time_label(dataset: xr.Dataset, time: float) -> str:
     return rf"$t$ = {time:.3f} s    ($t\sqrt{{g/H}}$ = {time / time_scale(dataset):.2f})"
 
 
-def run_title(dataset: xr.Dataset) -> str:
+def run_title(dataset: xr.Dataset, *, oblique: bool = False) -> str:
     """Case, method, resolution and the status of a run that is not complete; in 3-D the slice, in a second line."""
     title = str(dataset.attrs["title"])
     parts = [
@@ -249,7 +249,7 @@ def run_title(dataset: xr.Dataset) -> str:
         f"{dataset.sizes['particle']} particles, spacing {1e3 * dataset.attrs['particle_spacing']:.4g} mm",
     ]
     second = []
-    if int(dataset.attrs["dimension"]) == 3:
+    if int(dataset.attrs["dimension"]) == 3 and not oblique:
         second.append(f"slice at y = {_middle(dataset):.3g} ± {dataset.attrs['particle_spacing']:.2g} m")
     if dataset.attrs["completed"] != "yes":
         (second or parts).append(str(dataset.attrs["run_status"]))

@@ -35,6 +35,7 @@ from sphframe.analysis.drawing import (
 )
 from sphframe.analysis.fields import particles_at
 from sphframe.analysis.figures import figure_class, new_figure, tidy
+from sphframe.analysis.oblique import check_oblique, draw_oblique, oblique_view
 from sphframe.analysis.scales import time_scale
 from sphframe.errors import InputError, OutputError
 
@@ -64,6 +65,7 @@ def animate_run(
     field: str = "pressure",
     speed: float = 1.0,
     frames_per_second: float | None = None,
+    oblique: bool = False,
     track: Any = iter,
 ) -> int:
     """Write a film of a run, by default in real time, and return its number of frames.
@@ -82,6 +84,8 @@ def animate_run(
         how many times as fast as in reality the film plays, such as 0.5.
     frames_per_second
         plays all frames at this rate, whatever their times are; in place of ``speed``.
+    oblique
+        show a run in 3-D obliquely from above instead of a slice.
     track
         wraps the list of times, such as ``rich.progress.track``.
 
@@ -98,7 +102,7 @@ def animate_run(
     ffmpeg = _imageio_ffmpeg()
     times = [float(time) for time in dataset["time"].values]
     rate, every = (frames_per_second, 1) if frames_per_second is not None else _real_time(times, speed)
-    pictures = film_frames(dataset, field=field, times=track(times[::every]))
+    pictures = film_frames(dataset, field=field, times=track(times[::every]), oblique=oblique)
     first = next(pictures)
     height, width, _ = first.shape
     path.unlink(missing_ok=True)
@@ -150,21 +154,24 @@ def _imageio_ffmpeg() -> Any:
 
 
 def film_frames(
-    dataset: xr.Dataset, *, field: str = "pressure", times: Iterable[float] | None = None
+    dataset: xr.Dataset, *, field: str = "pressure", times: Iterable[float] | None = None, oblique: bool = False
 ) -> Iterator[NDArray[np.uint8]]:
     """Draw the frames nearest to ``times`` (s; by default all) and yield the pixels of each, (height, width, 4) RGBA.
 
     Raises
     ------
     InputError
-        matplotlib is not installed, the run has no frame, or the field is unknown.
+        matplotlib is not installed, the run has no frame, the field is unknown, or ``oblique`` is asked for in 2-D.
     """
     field_to_draw(field)
     figure_class()
+    if oblique:
+        check_oblique(dataset)
     stored = dataset["time"].values
     shown = [particles_at(dataset, float(t)) for t in stored[:: max(len(stored) // 8, 1)]] or [particles_at(dataset)]
     style, limits = style_of(shown, field), colour_limits(dataset, shown, field)
-    picture = _FilmPicture(dataset, field, style, view_of(dataset, shown), limits)
+    view = (oblique_view if oblique else view_of)(dataset, shown)
+    picture = (_ObliquePicture if oblique else _FilmPicture)(dataset, field, style, view, limits)
     for time in stored if times is None else times:
         yield picture.at(float(time))
 
@@ -222,13 +229,37 @@ class _FilmPicture:
             line.set_data(position[members, 0], position[members, 1])
 
 
-def _film_axes(dataset: xr.Dataset, style: Field, view: View, limits: tuple[float, float]) -> "Axes":
+class _ObliquePicture:
+    """The oblique picture of a run, drawn whole in each frame; parameters as those of :class:`_FilmPicture`."""
+
+    def __init__(self, dataset: xr.Dataset, field: str, style: Field, view: View, limits: tuple[float, float]) -> None:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+        self._dataset, self._field, self._style, self._view, self._limits = dataset, field, style, view, limits
+        self._axes = _film_axes(dataset, style, view, limits, oblique=True)
+        self._canvas: Any = FigureCanvasAgg(self._axes.figure)  # type: ignore[arg-type]
+
+    def at(self, time: float) -> NDArray[np.uint8]:
+        """Return the picture (height, width, 4) of the frame nearest to ``time`` (s)."""
+        frame, axes = particles_at(self._dataset, time), self._axes
+        axes.clear()
+        values = frame[self._field].values * self._style.factor
+        draw_oblique(axes, self._dataset, frame, values, self._style.colours, self._limits)
+        axes.set(xlim=self._view[0], ylim=self._view[1], aspect=1)
+        axes.set_title(_time_text(self._dataset, float(frame["time"])), fontsize=12, loc="left")
+        self._canvas.draw()
+        return np.asarray(self._canvas.buffer_rgba()).copy()
+
+
+def _film_axes(
+    dataset: xr.Dataset, style: Field, view: View, limits: tuple[float, float], *, oblique: bool = False
+) -> "Axes":
     """Return the empty axes of a new figure, with all labels and the colour bar."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
     (x0, x1), (y0, y1) = view
-    stretch = stretch_of(view, 10.6)
+    stretch = 1 if oblique else stretch_of(view, 10.6)
     height = float(np.clip(stretch * 10.6 * (y1 - y0) / (x1 - x0) + 1.6, 3.0, 9.6))
     figure = new_figure(12.8, 0.02 * round(height / 0.02), dpi=_DOTS_PER_INCH)
     axes: Axes = figure.add_subplot()
@@ -237,7 +268,7 @@ def _film_axes(dataset: xr.Dataset, style: Field, view: View, limits: tuple[floa
     axes.set_ylabel(f"{vertical_axis(dataset)} (m)", fontsize=12)
     extend = "max" if style.label == "speed" else "both"
     draw_colour_bar(figure, ScalarMappable(Normalize(*limits), style.colours), axes, style, size=12, extend=extend)
-    figure.suptitle(with_stretch(run_title(dataset), stretch), fontsize=13, wrap=True)
+    figure.suptitle(with_stretch(run_title(dataset, oblique=oblique), stretch), fontsize=13, wrap=True)
     return axes
 
 

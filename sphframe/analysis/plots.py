@@ -31,8 +31,10 @@ from sphframe.analysis.exact import draw_exact, exact_case
 from sphframe.analysis.fields import particles_at
 from sphframe.analysis.figures import figure_class, new_figure, save_figure, tidy
 from sphframe.analysis.histories import history_panels
+from sphframe.analysis.oblique import check_oblique, draw_oblique, oblique_view
 from sphframe.analysis.reference import shipped_references
 from sphframe.cases import ExactCase
+from sphframe.errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,6 +54,7 @@ def plot_run(
     times: Sequence[float] | None = None,
     reference: xr.DataArray | Sequence[xr.DataArray] | None = None,
     surface: bool = False,
+    oblique: bool = False,
     width: float = 10.0,
 ) -> "Figure":
     """Draw a run: particles coloured by a field at several times, and what was sampled, over time.
@@ -76,6 +79,8 @@ def plot_run(
         that the case ships, such as the measured pressure of the dam break.
     surface
         draw the free surface too: the line on which the particles fill half of the space.
+    oblique
+        show a run in 3-D obliquely from above instead of the slice.
     width
         of the picture, inches; below 10, all panels are drawn below each other.
 
@@ -87,17 +92,22 @@ def plot_run(
     Raises
     ------
     InputError
-        matplotlib is not installed, the run has no frame, or the field or a time is unknown.
+        matplotlib is not installed, the run has no frame, the field or a time is unknown, or ``oblique`` is asked
+        for in 2-D or together with ``surface``.
     OutputError
         the picture cannot be written.
     """
     field_to_draw(field)
     figure_class()
+    if oblique:
+        check_oblique(dataset)
+        if surface:
+            raise InputError("the free surface is drawn in a slice: leave out one of oblique and surface")
     frames = [particles_at(dataset, time) for time in (_spread(dataset) if times is None else times)]
-    view, exact = view_of(dataset, frames), exact_case(dataset)
+    view, exact = (oblique_view if oblique else view_of)(dataset, frames), exact_case(dataset)
     columns = 1 if len(frames) == 1 or width < _WIDTH or stretch_of(view, (width - 1.6) / 2) > 1 else 2
     rows = math.ceil(len(frames) / columns)
-    stretch = stretch_of(view, (width - 1.6) / columns)
+    stretch = 1 if oblique else stretch_of(view, (width - 1.6) / columns)
     height = rows * _panel_height(view, (width - 1.6) / columns, stretch)
     given = [reference] if isinstance(reference, xr.DataArray) else reference
     shown = shipped_references(dataset) if given is None else given
@@ -109,12 +119,12 @@ def plot_run(
     grid = figure.add_gridspec(2 if below else 1, 1, height_ratios=[height + 0.4, below] if below else [1.0])
     upper = figure.add_subfigure(grid[0])
     panels = upper.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
-    _draw_panels(upper, panels, dataset, frames, field, view, stretch, surface=surface)
+    _draw_panels(upper, panels, dataset, frames, field, view, stretch, surface=surface, oblique=oblique)
     if exact is not None:
         _draw_exact_panels(figure.add_subfigure(grid[1]), dataset, exact, solution, shown)
     elif series:
         _draw_series(figure.add_subfigure(grid[1]), series, beside)
-    figure.suptitle(with_stretch(run_title(dataset), stretch), fontsize=12, wrap=True)
+    figure.suptitle(with_stretch(run_title(dataset, oblique=oblique), stretch), fontsize=12, wrap=True)
     if path is not None:
         save_figure(figure, path)
     return figure  # type: ignore[no-any-return]
@@ -148,17 +158,23 @@ def _draw_panels(
     stretch: int,
     *,
     surface: bool,
+    oblique: bool,
 ) -> None:
     """Draw each of ``frames`` in one of the ``panels`` (rows, columns) of ``figure``, with one colour bar for all."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
     style = style_of(frames, field)
     limits = colour_limits(dataset, frames, field)
     for axes, frame in zip(panels.flat, frames, strict=False):
-        time = float(frame["time"])
-        draw_walls(axes, dataset, time)
-        drawn = draw_particles(axes, dataset, frame, frame[field].values * style.factor)
-        drawn.set(cmap=style.colours, clim=limits)
-        draw_probes(axes, dataset, time)
-        draw_gauges(axes, dataset)
+        time, shown = float(frame["time"]), frame[field].values * style.factor
+        if oblique:
+            draw_oblique(axes, dataset, frame, shown, style.colours, limits)
+        else:
+            draw_walls(axes, dataset, time)
+            draw_particles(axes, dataset, frame, shown).set(cmap=style.colours, clim=limits)
+            draw_probes(axes, dataset, time)
+            draw_gauges(axes, dataset)
         if surface:
             draw_free_surface(axes, dataset, frame)
         tidy(axes, grid=False, xlim=view[0], ylim=view[1], aspect=stretch)
@@ -170,7 +186,8 @@ def _draw_panels(
     for axes in panels[:, 0]:
         axes.set_ylabel(f"{vertical_axis(dataset)} (m)", fontsize=10)
     values = np.concatenate([frame[field].values for frame in frames]) * style.factor
-    draw_colour_bar(figure, drawn, panels, style, size=10, aspect=30, extend=beyond(limits, values))
+    scale = ScalarMappable(Normalize(*limits), style.colours)
+    draw_colour_bar(figure, scale, panels, style, size=10, aspect=30, extend=beyond(limits, values))
 
 
 def _draw_series(figure: Any, panels: "list[Callable[[Axes], None]]", beside: int) -> None:

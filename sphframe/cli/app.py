@@ -16,6 +16,7 @@ from sphframe.cli.parameters import (
     CheckpointInterval,
     Device,
     DrawnField,
+    Oblique,
     OutputFile,
     Preset,
     Scheduler,
@@ -266,6 +267,7 @@ def _plot(
         typer.Option("--reference", metavar="PATH", help="a .csv of p/(rho g H) over t sqrt(g/H), or a folder of them"),
     ] = None,
     surface: Annotated[bool, typer.Option("--surface", help="draw the free surface")] = False,
+    oblique: Oblique = False,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="FILE", help=".png, .pdf or .svg; by default FILE.png")
     ] = None,
@@ -273,7 +275,10 @@ def _plot(
     """Draw a run: particles at several times, probes with reference series, energies."""
     from sphframe.cli.plot import plot_command
 
-    plot_command(file, field=field, times=times or [], references=references or [], surface=surface, output=output)
+    plot_command(
+        file, field=field, times=times or [], references=references or [], surface=surface, oblique=oblique,
+        output=output,
+    )  # fmt: skip
 
 
 @app.command("animate")
@@ -289,11 +294,12 @@ def _animate(
     frames_per_second: Annotated[
         float | None, typer.Option("--fps", metavar="N", help="play all frames at this rate, in place of --speed")
     ] = None,
+    oblique: Oblique = False,
 ) -> None:
     """Write a film of a run, in real time."""
     from sphframe.cli.animate import animate_command
 
-    animate_command(file, field=field, output=output, speed=speed, frames_per_second=frames_per_second)
+    animate_command(file, field=field, output=output, speed=speed, frames_per_second=frames_per_second, oblique=oblique)
 
 
 @app.command("export")

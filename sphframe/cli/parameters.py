@@ -35,6 +35,7 @@ CheckpointInterval = Annotated[
     float | None, typer.Option(parser=seconds, metavar="SECONDS", help="simulated time between checkpoints")
 ]
 DrawnField = Annotated[str, typer.Option(metavar="NAME", help="pressure, speed or density")]
+Oblique = Annotated[bool, typer.Option("--oblique", help="show a run in 3-D obliquely from above instead of a slice")]
 OutputFile = Annotated[
     Path, typer.Argument(metavar="FILE", help="output file (.nc) of a run, finished or still running")
 ]
