@@ -133,7 +133,7 @@ class SolidDomain:
         """Return whether each of ``points`` (n, 3), m, lies behind a wall: outside, and a wall is the nearest."""
         behind = ~self.contains(points)
         feet = self.feet(points[behind])
-        on_wall = 1e-9 * (1.0 + np.abs(points).max(initial=0.0))
+        on_wall = 1e-6 * (1.0 + np.abs(points).max(initial=0.0))  # the winding number has single precision
         behind[behind] = (self.wall[feet.triangle] != OPEN) & (feet.depth > on_wall)
         return np.asarray(behind)
 

@@ -183,6 +183,18 @@ def test_mirror_points_in_a_sharp_edge_are_within_the_fluid(tmp_path):
     assert group.domain.feet(ghosts.mirror).depth.max() < 0.0
 
 
+def test_particles_just_before_a_wall_are_not_behind_it():
+    """The winding number has single precision, in which 1 - 2e-8 is 1."""
+    tank = BoxWall(name="tank", lower=(0, 0, 0), upper=(3.22, 1.0, 1.0), open_faces=("+z",))
+    group = group_of(tank, fluid=Box(lower=(2, 0, 0), upper=(3.22, 1, 0.5)), spacing=0.05)
+    places = np.random.default_rng(2).uniform(0.1, 0.9, (200, 3)) * [3.22, 1.0, 1.0]
+    for axis, wall, outward in ((0, 0.0, -1.0), (0, 3.22, 1.0), (1, 0.0, -1.0), (1, 1.0, 1.0), (2, 0.0, -1.0)):
+        for distance, behind in ((-2e-8, False), (1e-5, True)):
+            places[:, axis] = wall + outward * distance
+            assert np.all(group.behind(places) == behind)
+        places[:, axis] = 0.5
+
+
 def test_a_mesh_is_drawn_by_its_sharp_edges_and_three_sections(tmp_path):
     path = tmp_path / "box.stl"
     trimesh.creation.box((1.0, 2.0, 3.0)).export(path)
