@@ -114,7 +114,7 @@ class SolidDomain:
     def feet_behind(self, points: Array) -> tuple[BoolArray, Array]:
         """Return which of ``points`` (n, 3), m, lie behind a wall, and the nearest points (n, 3) of the boundary.
 
-        For few points it is much faster than :meth:`feet`.
+        It is faster than :meth:`feet`, much so for few points, and has no error of single precision.
         """
         vertices, faces = self._arrays
         squares, triangle, foot = self._tree.squared_distance(vertices, faces, np.ascontiguousarray(points))
@@ -131,11 +131,10 @@ class SolidDomain:
 
     def behind(self, points: Array) -> BoolArray:
         """Return whether each of ``points`` (n, 3), m, lies behind a wall: outside, and a wall is the nearest."""
-        behind = ~self.contains(points)
-        feet = self.feet(points[behind])
-        on_wall = 1e-6 * (1.0 + np.abs(points).max(initial=0.0))  # the winding number has single precision
-        behind[behind] = (self.wall[feet.triangle] != OPEN) & (feet.depth > on_wall)
-        return np.asarray(behind)
+        behind, foot = self.feet_behind(points)
+        on_wall = 1e-9 * (1.0 + np.abs(points).max(initial=0.0))
+        behind[behind] = np.linalg.norm(points[behind] - foot[behind], axis=1) > on_wall
+        return behind
 
 
 def _forget_tree(domain: weakref.ReferenceType[SolidDomain]) -> None:
