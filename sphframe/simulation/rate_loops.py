@@ -50,13 +50,12 @@ class RateLoops:
         bound = {
             **parts,
             "AS_ASSIGNED": as_assigned,
-            "SEEN": make_seen(walls, attracts=attracts),
-            "FORCE": walls.force or _no_force,
             "FORCES": walls.force is not None,
             "IMAGES": images,
             "SLOTS": most_images(parts["DIM"]),
-            "KINDS": 2 if as_assigned else 1,
         }
+        if not as_assigned:
+            bound |= {"KINDS": 1, "SEEN": make_seen(walls, attracts=attracts), "FORCE": walls.force or _no_force}
         over_walls, reaction = wall_sums, wall_reaction
         if walls.surface is not None:
             over_walls, reaction = surface_sums, surface_reaction
