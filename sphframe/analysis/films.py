@@ -248,6 +248,7 @@ class _ObliquePicture:
         axes.set(xlim=self._view[0], ylim=self._view[1], aspect=1)
         axes.set_title(_time_text(self._dataset, float(frame["time"])), fontsize=12, loc="left")
         self._canvas.draw()
+        axes.figure.set_layout_engine("none")  # type: ignore[union-attr]  # the first picture has made the layout
         return np.asarray(self._canvas.buffer_rgba()).copy()
 
 
