@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 View = tuple[tuple[float, float], tuple[float, float]]
 
-_WALL_COLOUR = "#3b3b3b"
+WALL_COLOUR = "#3b3b3b"
 _LEAST_HEIGHT = 1.1
 """of the axes of a picture, inches"""
 _EDGE = 0.4  # pt around each particle: without it, antialiased small discs would be pale
@@ -82,8 +82,7 @@ def _middle(dataset: xr.Dataset) -> float:
 def draw_particles(axes: "Axes", dataset: xr.Dataset, frame: xr.Dataset, values: Array) -> "EllipseCollection":
     """Draw the particles of ``frame`` as discs of one spacing, coloured by ``values`` (particles,).
 
-    In 3-D only those within one spacing of the middle plane are drawn. Particles without a finite value are drawn in
-    the colour of the walls, so that they can be seen.
+    In 3-D only those within one spacing of the middle plane are drawn.
     """
     from matplotlib.collections import EllipseCollection
 
@@ -109,7 +108,7 @@ def draw_particles(axes: "Axes", dataset: xr.Dataset, frame: xr.Dataset, values:
 def draw_walls(axes: "Axes", dataset: xr.Dataset, time: float) -> "list[Line2D]":
     """Draw the walls where they are at ``time``; in 3-D their outlines seen along y."""
     lines = [
-        axes.plot([], [], color=_WALL_COLOUR, linewidth=1.6, solid_capstyle="round", zorder=3)[0]
+        axes.plot([], [], color=WALL_COLOUR, linewidth=1.6, solid_capstyle="round", zorder=3)[0]
         for _ in range(dataset.sizes.get("outline", 0))
     ]
     move_walls(lines, dataset, time)

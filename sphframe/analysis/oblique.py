@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from sphframe.analysis.drawing import View, view_of
+from sphframe.analysis.drawing import WALL_COLOUR, View, view_of
 from sphframe.analysis.fields import outline_nodes
 from sphframe.analysis.figures import line_style
 from sphframe.analysis.placed import probes_at, walls_at
@@ -87,7 +87,7 @@ def draw_oblique(
     )  # fmt: skip
     for points, _ in walls_at(dataset, time):
         for zorder, alpha in ((1, 1.0), (3, 0.25)):
-            axes.plot(*(points @ _AXES).T, color="#3b3b3b", linewidth=1.0, alpha=alpha, zorder=zorder)
+            axes.plot(*(points @ _AXES).T, color=WALL_COLOUR, linewidth=1.0, alpha=alpha, zorder=zorder)
     if "probe_pressure" in dataset:
         for k, place in enumerate(probes_at(dataset, time) @ _AXES):
             axes.plot(*place, "o", color=line_style(k)["color"], markersize=5, markeredgecolor="white", zorder=4)

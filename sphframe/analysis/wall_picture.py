@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sphframe.analysis.drawing import WALL_COLOUR
 from sphframe.analysis.figures import figure_class, new_figure, plain, save_figure, tidy
 from sphframe.arrays import Array, BoolArray
 from sphframe.cases import Case
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_FLUID, _GHOST, _MIRROR, _WALL = "#9ecae1", "#c9b8a0", "#7a7a7a", "#3b3b3b"
+_FLUID, _GHOST, _MIRROR = "#9ecae1", "#c9b8a0", "#7a7a7a"
 _LARGEST = 3000
 """number of ghosts up to which mirror points are drawn"""
 
@@ -117,7 +118,7 @@ def _draw_particles(axes: "Axes", start: Drawn, spacing: float, spacing_in_point
     half = 0.5 * along[shown] * size ** (1.0 / (boundary.dim - 1) - 1.0)  # as long as a square panel is wide
     centre = panels.centre[shown][:, [0, -1]]
     lines = LineCollection(
-        list(np.stack([centre - half, centre + half], axis=1)), colors=_WALL, linewidths=1.4, label="walls"
+        list(np.stack([centre - half, centre + half], axis=1)), colors=WALL_COLOUR, linewidths=1.4, label="walls"
     )
     axes.add_collection(lines)
 
