@@ -32,6 +32,7 @@ PICTURES: dict[str, tuple[str, dict[str, Any]]] = {
     "gallery_wave": ("solitary-wave-fixed-wall.nc", {}),
     "gallery_3d": ("dam-break-3d.nc", {"times": [0.4, 0.6, 0.9, 1.4]}),
     "gallery_oblique": ("fine.nc", {"field": "speed", "times": [0.4, 0.6, 0.75, 0.9], "oblique": True}),
+    "gallery_surface": ("fine.nc", {"field": "speed", "times": [0.9], "oblique": True, "surface": True}),
     "gallery_exact": ("poiseuille.nc", {"field": "speed"}),
 }
 """the run of each picture and how it is drawn"""
@@ -43,9 +44,10 @@ def draw(run: Path, picture: Path, **options: Any) -> None:
     with open_dataset(run) as dataset:
         plot_run(dataset, **options).savefig(drawing, format="png", dpi=110)
     image = Image.open(drawing).convert("RGB")
-    image.quantize(256, method=Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE).save(
-        picture, optimize=True
-    )
+    small = image.quantize(256, method=Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE)
+    if options.get("oblique") and options.get("surface"):  # where colours change so slowly that 256 of them show steps
+        small = image.quantize(palette=small, dither=Image.Dither.FLOYDSTEINBERG)
+    small.save(picture, optimize=True)
     print(picture, picture.stat().st_size)
 
 

@@ -13,9 +13,11 @@ from sphframe.analysis.scales import pressure_scale, rest_pressure, time_scale
 from sphframe.analysis.series import running_mean, series_error
 from sphframe.analysis.summary import concerns, front_arrival, summary
 from sphframe.analysis.wall_picture import plot_walls
+from sphframe.analysis.water import WaterSurface, water_surface
 
 __all__ = [
     "SphAccessor",
+    "WaterSurface",
     "animate_run",
     "concerns",
     "convergence_order",
@@ -38,4 +40,5 @@ __all__ = [
     "time_scale",
     "to_grid",
     "vtk_parts",
+    "water_surface",
 ]

@@ -15,6 +15,7 @@ import xarray as xr
 
 from sphframe.analysis.fields import particles_at
 from sphframe.analysis.placed import ghosts_at, triangles_at, walls_at
+from sphframe.analysis.water import check_water_surface, in_water, pyvista_for, water_surface
 from sphframe.arrays import Array
 from sphframe.errors import InputError, OutputError
 
@@ -24,7 +25,9 @@ if TYPE_CHECKING:
 FORMATS = ("pvd", "vtkhdf", "csv", "zarr")
 
 
-def export_run(dataset: xr.Dataset, folder: str | os.PathLike[str], to: str, *, track: Any = iter) -> list[Path]:
+def export_run(
+    dataset: xr.Dataset, folder: str | os.PathLike[str], to: str, *, surface: bool = False, track: Any = iter
+) -> list[Path]:
     """Write a run into ``folder`` and return the files to open.
 
     Parameters
@@ -38,18 +41,25 @@ def export_run(dataset: xr.Dataset, folder: str | os.PathLike[str], to: str, *, 
         ParaView opens both with their times. ``csv`` for probes, gauges, energies and diagnostics, ``zarr`` for
         everything, as a store that :func:`sphframe.open_dataset` and xarray open. The parts are ``fluid``, ``ghosts``,
         ``walls`` as lines and, in 3-D, ``surfaces``: the walls as triangles.
+    surface
+        add the part ``water``: the surface of the water of a run in 3-D as triangles.
     track
         wraps the list of times, such as ``rich.progress.track``.
 
     Raises
     ------
     InputError
-        the format is unknown, the run has no frame yet, or PyVista is not installed.
+        the format is unknown, the run has no frame yet, PyVista is not installed, or ``surface`` is asked for with a
+        format that is not for ParaView; with it also those of :func:`sphframe.analysis.water_surface`.
     OutputError
         a file cannot be written.
     """
     if to not in FORMATS:
         raise InputError(f"no format {to!r}; choose one of {', '.join(FORMATS)}")
+    if surface:
+        if to not in ("pvd", "vtkhdf"):
+            raise InputError(f"the surface of the water is written as pvd or vtkhdf, not as {to}: leave out surface")
+        check_water_surface(dataset)
     folder = Path(folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -57,7 +67,7 @@ def export_run(dataset: xr.Dataset, folder: str | os.PathLike[str], to: str, *, 
             return [_export_zarr(dataset, folder / "run.zarr")]
         if to == "csv":
             return [export_csv(dataset, folder / "series.csv")]
-        return _export_vtk(dataset, folder, to, track)
+        return _export_vtk(dataset, folder, to, surface, track)
     except OSError as error:
         raise OutputError(f"cannot write to {folder}: {error.strerror or error}; choose another --output") from None
 
@@ -89,28 +99,29 @@ def export_csv(dataset: xr.Dataset, path: str | os.PathLike[str]) -> Path:
     return Path(path)
 
 
-def vtk_parts(dataset: xr.Dataset, time: float | None = None) -> "dict[str, pyvista.PolyData]":
+def vtk_parts(
+    dataset: xr.Dataset, time: float | None = None, *, surface: bool = False
+) -> "dict[str, pyvista.PolyData]":
     """Return those of ``fluid``, ``ghosts``, ``walls`` and ``surfaces`` that the run has, as VTK data sets.
 
-    They are those of the frame nearest to ``time``, s. Walls and ghosts are where their bodies have taken them.
+    They are those of the frame nearest to ``time``, s. Walls and ghosts are where their bodies have taken them. With
+    ``surface`` there is ``water`` too, the surface of the water with pressure, speed and velocity at its nodes.
 
     Raises
     ------
     InputError
-        the run has no frame yet, or PyVista is not installed.
+        the run has no frame yet, the frame has no water, or PyVista is not installed; with ``surface`` also those of
+        :func:`sphframe.analysis.water_surface`.
     """
-    try:
-        import pyvista
-    except ImportError:
-        raise InputError("exports for ParaView need PyVista: install it with pip install 'sphframe[vtk]'") from None
+    pyvista = pyvista_for("exports for ParaView need")
     frame = particles_at(dataset, time)
-    alive = np.isfinite(frame["position"].values).all(axis=1)
+    alive = in_water(frame)
     fluid = pyvista.PolyData(_in_space(frame["position"].values[alive]))
     for name in ("pressure", "density"):
         fluid[name] = frame[name].values[alive]
     fluid["velocity"] = _in_space(frame["velocity"].values[alive])
     fluid["mass"] = dataset["particle_mass"].values[alive]
-    fluid["id"] = np.flatnonzero(alive).astype(np.int32)
+    fluid["id"] = alive.astype(np.int32)
     parts = {"fluid": fluid}
     now = float(frame["time"])
     if "ghost_position" in dataset:
@@ -132,17 +143,31 @@ def vtk_parts(dataset: xr.Dataset, time: float | None = None) -> "dict[str, pyvi
         corners: Any = np.arange(3 * len(triangles)).reshape(-1, 3)
         parts["surfaces"] = pyvista.PolyData.from_regular_faces(triangles.reshape(-1, 3), corners)
         parts["surfaces"].cell_data["wall"] = owners
+    if surface:
+        parts["water"] = _water(dataset, frame)
     return parts
 
 
-def _export_vtk(dataset: xr.Dataset, folder: Path, to: str, track: Callable[..., Any]) -> list[Path]:
+def _water(dataset: xr.Dataset, frame: xr.Dataset) -> "pyvista.PolyData":
+    """Return the surface of the water in single precision, which is that of the contour."""
+    import pyvista
+
+    water = water_surface(dataset, float(frame["time"]))
+    mesh = pyvista.PolyData.from_regular_faces(water.nodes.astype(np.float32), water.triangles)
+    mesh.point_data.active_normals = water.normals.astype(np.float32)
+    for name in ("pressure", "speed", "velocity"):
+        mesh[name] = (water.average @ frame[name].values).astype(np.float32)
+    return mesh
+
+
+def _export_vtk(dataset: xr.Dataset, folder: Path, to: str, surface: bool, track: Callable[..., Any]) -> list[Path]:
     times = [float(time) for time in dataset["time"].values]
-    parts = vtk_parts(dataset, times[0] if times else None)  # raises the error that there is no frame yet
+    parts = vtk_parts(dataset, times[0] if times else None, surface=surface)  # raises the error that there is no frame
     if to == "vtkhdf":
         return [_write_hdf(dataset, part, folder / f"{part}.vtkhdf", times) for part in track(list(parts))]
     written: dict[str, list[tuple[float, Path]]] = {}
     for number, time in enumerate(track(times)):
-        for part, mesh in vtk_parts(dataset, time).items():
+        for part, mesh in vtk_parts(dataset, time, surface=surface).items():
             path = folder / f"{part}_{number:04d}.vtp"
             mesh.field_data["TimeValue"] = [time]
             _write_xml(mesh, path)
@@ -185,7 +210,7 @@ def _write_hdf(dataset: xr.Dataset, part: str, path: Path, times: list[float]) -
             time = (
                 information.Get(Pipeline.UPDATE_TIME_STEP()) if information.Has(Pipeline.UPDATE_TIME_STEP()) else None
             )
-            self.GetOutputDataObject(0).ShallowCopy(vtk_parts(dataset, time)[part])
+            self.GetOutputDataObject(0).ShallowCopy(vtk_parts(dataset, time, surface=part == "water")[part])
             return 1
 
     path.unlink(missing_ok=True)
@@ -193,7 +218,7 @@ def _write_hdf(dataset: xr.Dataset, part: str, path: Path, times: list[float]) -
     writer.SetFileName(str(path))
     writer.SetInputConnection(frames.GetOutputPort())
     writer.SetWriteAllTimeSteps(True)
-    writer.SetChunkSize(max(vtk_parts(dataset, times[0])[part].n_points, 1))
+    writer.SetChunkSize(max(vtk_parts(dataset, times[0], surface=part == "water")[part].n_points, 1))
     writer.SetCompressionLevel(4)
     if not writer.Write() or not path.exists():
         raise OutputError(f"cannot write {path}; choose another --output")

@@ -8,6 +8,7 @@ import itertools
 import math
 import os
 from collections.abc import Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -66,6 +67,7 @@ def animate_run(
     speed: float = 1.0,
     frames_per_second: float | None = None,
     oblique: bool = False,
+    surface: bool = False,
     track: Any = iter,
 ) -> int:
     """Write a film of a run, by default in real time, and return its number of frames.
@@ -86,14 +88,16 @@ def animate_run(
         plays all frames at this rate, whatever their times are; in place of ``speed``.
     oblique
         show a run in 3-D obliquely from above instead of a slice.
+    surface
+        with ``oblique``: show the surface of the water (:func:`sphframe.analysis.water_surface`) in place of particles.
     track
         wraps the list of times, such as ``rich.progress.track``.
 
     Raises
     ------
     InputError
-        matplotlib or imageio-ffmpeg is not installed, the suffix of ``path`` or the field is unknown, or the
-        run has no frame yet.
+        matplotlib or imageio-ffmpeg is not installed, the suffix of ``path`` or the field is unknown, the run has no
+        frame yet, or it cannot be shown with ``oblique`` or ``surface``.
     OutputError
         the film cannot be written.
     """
@@ -102,7 +106,7 @@ def animate_run(
     ffmpeg = _imageio_ffmpeg()
     times = [float(time) for time in dataset["time"].values]
     rate, every = (frames_per_second, 1) if frames_per_second is not None else _real_time(times, speed)
-    pictures = film_frames(dataset, field=field, times=track(times[::every]), oblique=oblique)
+    pictures = film_frames(dataset, field=field, times=track(times[::every]), oblique=oblique, surface=surface)
     first = next(pictures)
     height, width, _ = first.shape
     path.unlink(missing_ok=True)
@@ -154,24 +158,33 @@ def _imageio_ffmpeg() -> Any:
 
 
 def film_frames(
-    dataset: xr.Dataset, *, field: str = "pressure", times: Iterable[float] | None = None, oblique: bool = False
+    dataset: xr.Dataset,
+    *,
+    field: str = "pressure",
+    times: Iterable[float] | None = None,
+    oblique: bool = False,
+    surface: bool = False,
 ) -> Iterator[NDArray[np.uint8]]:
     """Draw the frames nearest to ``times`` (s; by default all) and yield the pixels of each, (height, width, 4) RGBA.
 
     Raises
     ------
     InputError
-        matplotlib is not installed, the run has no frame, the field is unknown, or ``oblique`` is asked for in 2-D.
+        matplotlib is not installed, the run has no frame, the field is unknown, ``oblique`` is asked for in 2-D, or
+        ``surface`` without ``oblique``; with both also those of :func:`sphframe.analysis.water_surface`.
     """
     field_to_draw(field)
     figure_class()
+    if surface and not oblique:
+        raise InputError("films show the surface of the water obliquely: ask for oblique too, or leave out surface")
     if oblique:
-        check_oblique(dataset)
+        check_oblique(dataset, surface=surface)
     stored = dataset["time"].values
     shown = [particles_at(dataset, float(t)) for t in stored[:: max(len(stored) // 8, 1)]] or [particles_at(dataset)]
     style, limits = style_of(shown, field), colour_limits(dataset, shown, field)
     view = (oblique_view if oblique else view_of)(dataset, shown)
-    picture = (_ObliquePicture if oblique else _FilmPicture)(dataset, field, style, view, limits)
+    made = partial(_ObliquePicture, surface=surface) if oblique else _FilmPicture
+    picture = made(dataset, field, style, view, limits)
     for time in stored if times is None else times:
         yield picture.at(float(time))
 
@@ -232,11 +245,13 @@ class _FilmPicture:
 class _ObliquePicture:
     """The oblique picture of a run, drawn whole in each frame; parameters as those of :class:`_FilmPicture`."""
 
-    def __init__(self, dataset: xr.Dataset, field: str, style: Field, view: View, limits: tuple[float, float]) -> None:
+    def __init__(
+        self, dataset: xr.Dataset, field: str, style: Field, view: View, limits: tuple[float, float], *, surface: bool
+    ) -> None:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 
         self._dataset, self._field, self._style, self._view, self._limits = dataset, field, style, view, limits
-        self._axes = _film_axes(dataset, style, view, limits, oblique=True)
+        self._axes, self._surface = _film_axes(dataset, style, view, limits, oblique=True), surface
         self._canvas: Any = FigureCanvasAgg(self._axes.figure)  # type: ignore[arg-type]
 
     def at(self, time: float) -> NDArray[np.uint8]:
@@ -244,7 +259,7 @@ class _ObliquePicture:
         frame, axes = particles_at(self._dataset, time), self._axes
         axes.clear()
         values = frame[self._field].values * self._style.factor
-        draw_oblique(axes, self._dataset, frame, values, self._style.colours, self._limits)
+        draw_oblique(axes, self._dataset, frame, values, self._style.colours, self._limits, surface=self._surface)
         axes.set(xlim=self._view[0], ylim=self._view[1], aspect=1)
         axes.set_title(_time_text(self._dataset, float(frame["time"])), fontsize=12, loc="left")
         self._canvas.draw()

@@ -1,7 +1,8 @@
 """Analysis: a run in three dimensions, seen obliquely from the front, the right and above, in light and shade.
 
-Particles are projected along one direction and drawn from the farthest to the nearest, as discs. Their brightness
-follows from the angle between the light and the direction in which a particle has no neighbours.
+What is seen is projected along one direction and drawn from the farthest to the nearest: the particles as discs, or the
+surface of the water as triangles. Brightness follows from the angle between the light and the normal of the surface;
+the normal of a particle is the direction in which it has no neighbours.
 """
 
 import itertools
@@ -15,6 +16,7 @@ from sphframe.analysis.drawing import WALL_COLOUR, View, view_of
 from sphframe.analysis.fields import outline_nodes
 from sphframe.analysis.figures import line_style
 from sphframe.analysis.placed import probes_at, walls_at
+from sphframe.analysis.water import check_water_surface, water_surface
 from sphframe.arrays import Array
 from sphframe.errors import InputError
 
@@ -34,20 +36,26 @@ _AXES = np.stack([
 _LIGHT = np.array([0.35, -0.55, 0.75]) / np.linalg.norm([0.35, -0.55, 0.75])
 _DARKEST = 0.55
 _GLOSS = 0.25
-"""share of white where the light falls at a right angle"""
+"""share of white where the light falls at a right angle on a particle, or is reflected by the surface to who looks"""
+_HALFWAY = (_LIGHT + _TOWARDS) / np.linalg.norm(_LIGHT + _TOWARDS)
+"""normal of a surface that reflects the light to who looks"""
+_SHARPNESS = 30.0
+"""exponent of the reflection, of Blinn (1977), doi:10.1145/563858.563893"""
 _NEIGHBOURS = 24
 
 
-def check_oblique(dataset: xr.Dataset) -> None:
-    """Check that a run can be seen obliquely.
+def check_oblique(dataset: xr.Dataset, *, surface: bool = False) -> None:
+    """Check that a run, or the ``surface`` of its water, can be seen obliquely.
 
     Raises
     ------
     InputError
-        it is in two dimensions.
+        it is in two dimensions, or what the surface needs is not installed.
     """
     if int(dataset.attrs["dimension"]) != 3:
         raise InputError("only runs in three dimensions are seen obliquely, and this one is in two: leave out oblique")
+    if surface:
+        check_water_surface(dataset)
 
 
 def oblique_view(dataset: xr.Dataset, frames: Sequence[xr.Dataset]) -> View:
@@ -60,23 +68,43 @@ def oblique_view(dataset: xr.Dataset, frames: Sequence[xr.Dataset]) -> View:
 
 
 def draw_oblique(
+    axes: "Axes",
+    dataset: xr.Dataset,
+    frame: xr.Dataset,
+    values: Array,
+    colours: str,
+    limits: tuple[float, float],
+    *,
+    surface: bool = False,
+) -> None:
+    """Draw the particles of ``frame`` or the ``surface`` of the water, coloured by ``values`` of the particles.
+
+    The ``limits`` are the values at the ends of the ``colours``. Walls behind the water are hidden by it, and shine
+    through it faintly.
+    """
+    time = float(frame["time"])
+    draw = _draw_surface if surface else _draw_discs
+    draw(axes, dataset, frame, values, colours, limits)
+    for points, _ in walls_at(dataset, time):
+        for zorder, alpha in ((1, 1.0), (3, 0.25)):
+            axes.plot(*(points @ _AXES).T, color=WALL_COLOUR, linewidth=1.0, alpha=alpha, zorder=zorder)
+    if "probe_pressure" in dataset:
+        for k, place in enumerate(probes_at(dataset, time) @ _AXES):
+            axes.plot(*place, "o", color=line_style(k)["color"], markersize=5, markeredgecolor="white", zorder=4)
+    axes.set_axis_off()
+
+
+def _draw_discs(
     axes: "Axes", dataset: xr.Dataset, frame: xr.Dataset, values: Array, colours: str, limits: tuple[float, float]
 ) -> None:
-    """Draw the particles of ``frame``, coloured by ``values`` within ``limits``, the walls and the probes.
-
-    Walls behind the water are hidden by it, and shine through it faintly.
-    """
-    from matplotlib import colormaps
+    """Draw the particles as discs, the nearest last."""
     from matplotlib.collections import EllipseCollection
-    from matplotlib.colors import Normalize
 
-    time, spacing = float(frame["time"]), float(dataset.attrs["particle_spacing"])
+    spacing = float(dataset.attrs["particle_spacing"])
     left = np.isfinite(frame["position"].values).all(axis=1)
     position = frame["position"].values[left]
-    colour: Any = colormaps[colours](Normalize(*limits)(np.ma.masked_invalid(values[left])))
-    lit = _light_on(position, spacing)[:, None]
-    colour[:, :3] *= _DARKEST + (1.0 - _DARKEST) * lit
-    colour[:, :3] += _GLOSS * lit**2 * (1.0 - colour[:, :3])
+    lit = _light_on(position, spacing)
+    colour = _lit_colours(values[left], colours, limits, lit, _GLOSS * lit**2)
     order = np.argsort(position @ _TOWARDS)
     axes.add_collection(
         EllipseCollection(
@@ -85,13 +113,37 @@ def draw_oblique(
         ),
         autolim=False,
     )  # fmt: skip
-    for points, _ in walls_at(dataset, time):
-        for zorder, alpha in ((1, 1.0), (3, 0.25)):
-            axes.plot(*(points @ _AXES).T, color=WALL_COLOUR, linewidth=1.0, alpha=alpha, zorder=zorder)
-    if "probe_pressure" in dataset:
-        for k, place in enumerate(probes_at(dataset, time) @ _AXES):
-            axes.plot(*place, "o", color=line_style(k)["color"], markersize=5, markeredgecolor="white", zorder=4)
-    axes.set_axis_off()
+
+
+def _draw_surface(
+    axes: "Axes", dataset: xr.Dataset, frame: xr.Dataset, values: Array, colours: str, limits: tuple[float, float]
+) -> None:
+    """Draw the triangles of the surface that are seen from outside, the nearest last; colours vary within each."""
+    from matplotlib.collections import TriMesh
+    from matplotlib.tri import Triangulation
+
+    water = water_surface(dataset, float(frame["time"]))
+    lit = np.clip(water.normals @ _LIGHT, 0.0, 1.0)
+    gloss = _GLOSS * np.clip(water.normals @ _HALFWAY, 0.0, 1.0) ** _SHARPNESS
+    corners = water.nodes[water.triangles]
+    seen = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) @ _TOWARDS > 0.0
+    order = np.argsort(corners[seen].mean(axis=1) @ _TOWARDS)
+    # as an image in .pdf and .svg, where each of 10^5 triangles would be a shape of its own
+    right, up = (water.nodes @ _AXES).T
+    mesh = TriMesh(Triangulation(right, up, water.triangles[seen][order]), zorder=2, rasterized=True)
+    mesh.set_facecolor(_lit_colours(water.average @ values, colours, limits, lit, gloss))
+    axes.add_collection(mesh, autolim=False)
+
+
+def _lit_colours(values: Array, colours: str, limits: tuple[float, float], lit: Array, gloss: Array) -> Any:
+    """Return the RGBA (n, 4) of ``values`` (n,), darker where little is ``lit``, with a share ``gloss`` of white."""
+    from matplotlib import colormaps
+    from matplotlib.colors import Normalize
+
+    colour: Any = colormaps[colours](Normalize(*limits)(np.ma.masked_invalid(values)))
+    colour[:, :3] *= _DARKEST + (1.0 - _DARKEST) * lit[:, None]
+    colour[:, :3] += gloss[:, None] * (1.0 - colour[:, :3])
+    return colour
 
 
 def _light_on(position: Array, spacing: float) -> Array:

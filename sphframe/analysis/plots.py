@@ -34,7 +34,6 @@ from sphframe.analysis.histories import history_panels
 from sphframe.analysis.oblique import check_oblique, draw_oblique, oblique_view
 from sphframe.analysis.reference import shipped_references
 from sphframe.cases import ExactCase
-from sphframe.errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -78,7 +77,8 @@ def plot_run(
         one or several series of p/(rho0 g H) over t sqrt(g/H), drawn together with the probes; by default those
         that the case ships, such as the measured pressure of the dam break.
     surface
-        draw the free surface too: the line on which the particles fill half of the space.
+        draw the free surface too: the line on which the particles fill half of the space. With ``oblique`` the surface
+        of the water (:func:`sphframe.analysis.water_surface`) is drawn in place of the particles.
     oblique
         show a run in 3-D obliquely from above instead of the slice.
     width
@@ -93,16 +93,14 @@ def plot_run(
     ------
     InputError
         matplotlib is not installed, the run has no frame, the field or a time is unknown, or ``oblique`` is asked
-        for in 2-D or together with ``surface``.
+        for in 2-D; with ``oblique`` and ``surface`` also those of :func:`sphframe.analysis.water_surface`.
     OutputError
         the picture cannot be written.
     """
     field_to_draw(field)
     figure_class()
     if oblique:
-        check_oblique(dataset)
-        if surface:
-            raise InputError("the free surface is drawn in a slice: leave out one of oblique and surface")
+        check_oblique(dataset, surface=surface)
     frames = [particles_at(dataset, time) for time in (_spread(dataset) if times is None else times)]
     view, exact = (oblique_view if oblique else view_of)(dataset, frames), exact_case(dataset)
     columns = 1 if len(frames) == 1 or width < _WIDTH or stretch_of(view, (width - 1.6) / 2) > 1 else 2
@@ -169,14 +167,14 @@ def _draw_panels(
     for axes, frame in zip(panels.flat, frames, strict=False):
         time, shown = float(frame["time"]), frame[field].values * style.factor
         if oblique:
-            draw_oblique(axes, dataset, frame, shown, style.colours, limits)
+            draw_oblique(axes, dataset, frame, shown, style.colours, limits, surface=surface)
         else:
             draw_walls(axes, dataset, time)
             draw_particles(axes, dataset, frame, shown).set(cmap=style.colours, clim=limits)
             draw_probes(axes, dataset, time)
             draw_gauges(axes, dataset)
-        if surface:
-            draw_free_surface(axes, dataset, frame)
+            if surface:
+                draw_free_surface(axes, dataset, frame)
         tidy(axes, grid=False, xlim=view[0], ylim=view[1], aspect=stretch)
         axes.set_title(time_label(dataset, time), fontsize=10, loc="left", pad=3)
     for axes in panels.flat[len(frames) :]:

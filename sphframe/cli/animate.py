@@ -11,7 +11,14 @@ from sphframe.output import open_dataset
 
 
 def animate_command(
-    path: Path, *, field: str, output: Path | None, speed: float, frames_per_second: float | None, oblique: bool
+    path: Path,
+    *,
+    field: str,
+    output: Path | None,
+    speed: float,
+    frames_per_second: float | None,
+    oblique: bool,
+    surface: bool,
 ) -> None:
     """Write a film of a run that is complete or still running."""
     target = output or path.with_suffix(".mp4")
@@ -25,6 +32,7 @@ def animate_command(
             speed=speed,
             frames_per_second=frames_per_second,
             oblique=oblique,
+            surface=surface,
             track=lambda times: track(times, "drawing", console=console, disable=not console.is_terminal),
         )
     playing = f"{frames_per_second:g} per second" if frames_per_second else f"{speed:g} times as fast as in reality"

@@ -266,7 +266,9 @@ def _plot(
         list[Path] | None,
         typer.Option("--reference", metavar="PATH", help="a .csv of p/(rho g H) over t sqrt(g/H), or a folder of them"),
     ] = None,
-    surface: Annotated[bool, typer.Option("--surface", help="draw the free surface")] = False,
+    surface: Annotated[
+        bool, typer.Option("--surface", help="draw the free surface; with --oblique it replaces the particles")
+    ] = False,
     oblique: Oblique = False,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="FILE", help=".png, .pdf or .svg; by default FILE.png")
@@ -295,11 +297,17 @@ def _animate(
         float | None, typer.Option("--fps", metavar="N", help="play all frames at this rate, in place of --speed")
     ] = None,
     oblique: Oblique = False,
+    surface: Annotated[
+        bool, typer.Option("--surface", help="with --oblique: show the surface of the water in place of particles")
+    ] = False,
 ) -> None:
     """Write a film of a run, in real time."""
     from sphframe.cli.animate import animate_command
 
-    animate_command(file, field=field, output=output, speed=speed, frames_per_second=frames_per_second, oblique=oblique)
+    animate_command(
+        file, field=field, output=output, speed=speed, frames_per_second=frames_per_second, oblique=oblique,
+        surface=surface,
+    )  # fmt: skip
 
 
 @app.command("export")
@@ -309,11 +317,14 @@ def _export(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="FOLDER", help="by default FILE-FORMAT")
     ] = None,
+    surface: Annotated[
+        bool, typer.Option("--surface", help="for ParaView: add the surface of the water of a run in 3-D, as triangles")
+    ] = False,
 ) -> None:
     """Write a run for ParaView with walls and ghosts, its sampled series as a table, or all of it as Zarr."""
     from sphframe.cli.export import export_command
 
-    export_command(file, to=to, output=output)
+    export_command(file, to=to, output=output, surface=surface)
 
 
 @app.command("watch")

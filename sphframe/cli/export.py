@@ -9,7 +9,7 @@ from sphframe.analysis import export_run
 from sphframe.output import open_dataset
 
 
-def export_command(path: Path, *, to: str, output: Path | None) -> None:
+def export_command(path: Path, *, to: str, output: Path | None, surface: bool) -> None:
     """Write a run for ParaView, or its sampled series as a table."""
     folder = output or path.with_name(f"{path.stem}-{to}")
     console = Console(stderr=True, markup=False)
@@ -18,6 +18,7 @@ def export_command(path: Path, *, to: str, output: Path | None) -> None:
             dataset,
             folder,
             to,
+            surface=surface,
             track=lambda times: track(times, "writing", console=console, disable=not console.is_terminal),
         )
     for file in files[:3]:

@@ -10,7 +10,7 @@ import xarray as xr
 from typer.testing import CliRunner
 
 import sphframe
-from sphframe.analysis import animate_run, export_run, particles_at, plot_run, references_for, vtk_parts
+from sphframe.analysis import animate_run, export_run, particles_at, plot_run, references_for, vtk_parts, water_surface
 from sphframe.analysis.drawing import view_of
 from sphframe.analysis.films import film_frames
 from sphframe.analysis.placed import walls_at
@@ -75,7 +75,41 @@ def test_vtk_reads_what_was_exported(name: str, to: str, tmp_path: Path, request
         assert pyvista.PVDReader(tmp_path / "fluid.pvd").time_values == dataset["time"].values.tolist()
 
 
-def _read(folder: Path, part: str, to: str, step: int):  # type: ignore[no-untyped-def]
+@pytest.mark.parametrize("to", ["vtkhdf", "pvd"])
+def test_vtk_reads_the_surface_of_the_water(tank_3d: xr.Dataset, to: str, tmp_path: Path) -> None:
+    pytest.importorskip("pyvista")
+    made = tank_3d.copy(deep=True)
+    made["position"][-1, ::2] = np.nan  # so that the surface has other triangles at the end
+    made["velocity"][:] = [0.3, 0.0, -0.4]
+    written = export_run(made, tmp_path, to, surface=True)
+    assert {"water", "fluid", "surfaces"} < {path.stem for path in written}
+    for step, time in ((0, 0.0), (made.sizes["time"] - 1, None)):
+        water, read = water_surface(made, time), _read(tmp_path, "water", to, step, made.sizes["time"])
+        np.testing.assert_allclose(read.points, water.nodes, atol=1e-6)
+        np.testing.assert_array_equal(read.regular_faces, water.triangles)
+        assert read.is_manifold
+        pressure = water.average @ particles_at(made, time)["pressure"].values
+        np.testing.assert_allclose(read["pressure"], pressure, rtol=1e-5, atol=1e-3)
+        np.testing.assert_allclose(read["velocity"], [[0.3, 0.0, -0.4]] * read.n_points, atol=1e-6)
+        np.testing.assert_allclose(read["speed"], 0.5, atol=1e-6)
+        np.testing.assert_allclose(read.point_data.active_normals, water.normals, atol=1e-6)
+
+
+def test_surfaces_that_cannot_be_exported(tank: xr.Dataset, tank_3d: xr.Dataset, tmp_path: Path) -> None:
+    pytest.importorskip("pyvista")
+    with pytest.raises(InputError, match="only runs in three dimensions"):
+        export_run(tank, tmp_path / "tank", "pvd", surface=True)
+    with pytest.raises(InputError, match="written as pvd or vtkhdf, not as csv"):
+        export_run(tank_3d, tmp_path / "tank", "csv", surface=True)
+    assert not (tmp_path / "tank").exists()
+    dry = tank_3d.copy(deep=True)
+    dry["position"][0] = np.nan
+    with pytest.raises(InputError, match="no water in the frame at t = 0 s"):
+        export_run(dry, tmp_path / "tank", "pvd", surface=True)
+    assert "water" not in vtk_parts(tank_3d)
+
+
+def _read(folder: Path, part: str, to: str, step: int, steps: int | None = None):  # type: ignore[no-untyped-def]
     import pyvista
 
     if to == "pvd":
@@ -85,7 +119,7 @@ def _read(folder: Path, part: str, to: str, step: int):  # type: ignore[no-untyp
     reader = vtkHDFReader()
     reader.SetFileName(str(folder / f"{part}.vtkhdf"))
     reader.UpdateInformation()
-    assert reader.GetNumberOfSteps() == step + 1
+    assert reader.GetNumberOfSteps() == (steps or step + 1)
     reader.SetStep(step)
     reader.Update()
     return pyvista.wrap(reader.GetOutput())
@@ -187,3 +221,19 @@ def test_commands(tmp_path: Path) -> None:
         assert made in result.output.replace("\n", "")
         assert (tmp_path / made).stat().st_size > 100
     assert CliRunner().invoke(app, ["plot", str(path), "--field", "colour"]).exit_code == 2
+
+
+def test_commands_that_show_the_surface_of_the_water(tank: xr.Dataset, tank_3d: xr.Dataset, tmp_path: Path) -> None:
+    pytest.importorskip("pyvista")
+    tank_3d.isel(time=[0]).to_netcdf(tmp_path / "box.nc", format="NETCDF3_64BIT")
+    tank.isel(time=[0]).to_netcdf(tmp_path / "flat.nc", format="NETCDF3_64BIT")
+    for command, made in (
+        (["plot", "--oblique"], "box.png"),
+        (["animate", "--oblique", "-o", str(tmp_path / "box.gif")], "box.gif"),
+        (["export"], "box-pvd/water.pvd"),
+    ):
+        for name, code in (("box.nc", 0), ("flat.nc", 2)):
+            result = CliRunner().invoke(app, [command[0], str(tmp_path / name), "--surface", *command[1:]])
+            assert result.exit_code == code, result.output
+            assert ("Traceback" in result.output, "three dimensions" in result.output) == (False, code == 2)
+        assert (tmp_path / made).stat().st_size > 100
