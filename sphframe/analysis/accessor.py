@@ -6,7 +6,7 @@ from typing import Any
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from sphframe.analysis import fields, plots, probes, scales
+from sphframe.analysis import fields, plots, probes, scales, water
 from sphframe.analysis.exact import with_exact_solution
 from sphframe.analysis.series import series_error
 from sphframe.analysis.summary import summary
@@ -63,6 +63,10 @@ class SphAccessor:
     def free_surface(self, time: float | None = None, *, resolution: float | None = None) -> xr.DataArray:
         """See :func:`sphframe.analysis.free_surface`."""
         return fields.free_surface(self._dataset, time, resolution=resolution)
+
+    def water_surface(self, time: float | None = None) -> water.WaterSurface:
+        """See :func:`sphframe.analysis.water_surface`."""
+        return water.water_surface(self._dataset, time)
 
     def to_grid(
         self, field: str = "pressure", time: float | None = None, *, resolution: float | None = None

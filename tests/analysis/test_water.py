@@ -116,7 +116,7 @@ def test_points_on_the_walls_are_no_solid() -> None:
 
 def test_the_surface_of_a_run(tank_3d: xr.Dataset) -> None:
     frame, spacing = particles_at(tank_3d, 0.0), float(tank_3d.attrs["particle_spacing"])
-    water = water_surface(tank_3d, 0.0)
+    water = tank_3d.sph.water_surface(0.0)
     volume = float((tank_3d["particle_mass"] / frame["density"]).sum())
     assert solid_of(water.nodes, water.triangles).volume == pytest.approx(volume, rel=5e-3)
     lower, upper = (f(tank_3d["outline_node"].values, axis=0) for f in (np.min, np.max))
