@@ -248,10 +248,12 @@ def test_still_water_presses_half_a_column_aside() -> None:
 @pytest.mark.long
 @pytest.mark.filterwarnings("ignore:particle_spacing .* particles over the depth")
 def test_the_wave_pushes_and_pulls_the_column_as_in_theory(tmp_path: Path) -> None:
-    with run(SolitaryWaveColumn(**COARSE), output=tmp_path / "run.nc", threads=1).dataset as dataset:
+    with run(
+        SolitaryWaveColumn(**COARSE | {"particle_spacing": 0.25 / 8.0}), output=tmp_path / "run.nc", threads=1
+    ).dataset as dataset:
         assert int(dataset["particles_outside"].max()) == 0
         found = dataset.sph.summary()["errors"]
     assert found["wave_height"] < 0.1
     assert found["push"] < 0.15
-    assert found["pull"] < 0.3
+    assert found["pull"] < 0.35
     assert found["column_force"] < 0.25
