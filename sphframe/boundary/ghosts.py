@@ -150,12 +150,10 @@ def fill_ghosts(  # type: ignore[no-untyped-def]
                         offsets[n, 1] = dy
                         if DIM == 3:
                             offsets[n, 2] = dz
-                        distances[n] = r2
+                        distances[n] = math.sqrt(r2)
                         volumes[n] = rows[j, COLUMNS.volume]
                         members[n] = j
                         n += 1 if r2 < limit else 0  # else it is overwritten: faster than a branch
-                    for k in range(n):
-                        distances[k] = math.sqrt(distances[k])
                     if BY_KERNEL or fades:
                         for k in range(n):
                             values[k] = parameters.kernel_scale * VALUE(distances[k] * per_h)

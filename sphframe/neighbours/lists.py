@@ -39,8 +39,7 @@ class NeighbourLists:
     Attributes
     ----------
     cluster
-        number of particles that share a list; the list of a single particle holds exactly its neighbours, that of
-        several also the members of the cluster themselves.
+        number of particles that share a list; that of several also holds the members of the cluster themselves.
     width
         width of the rows of the cell grid, m: the edge of the cube that a cluster should fill.
     fluid
@@ -60,8 +59,8 @@ class NeighbourLists:
         ``fluid``, and ``points`` has only what is seen, at the time of the search (:mod:`sphframe.neighbours.sight`).
     """
 
-    SKIN = 0.1
-    """skin of a run's lists over the kernel support"""
+    SKIN, THINNEST = 0.1, 0.05
+    """bounds of the skin of a run's lists over the kernel support: fluid at rest needs none"""
 
     def __init__(
         self,
@@ -82,7 +81,7 @@ class NeighbourLists:
         self.periods = Periods.none(dim) if periods is None else periods
         self._shifts = np.zeros((len(self.periods.shifts()), 3))
         self._shifts[:, :dim] = self.periods.shifts()
-        self.dim, self.support, self.skin = dim, support, skin
+        self.dim, self.support, self.skin, self._thickest = dim, support, skin, skin
         self.shares, self._narrow = np.zeros((1, 1, LANES), np.uint8), np.full(3, np.inf)
         narrow = self.periods.length - 2.0 * (self.radius + half_edge)
         np.copyto(self._narrow[:dim], narrow, where=self.periods.repeats)
@@ -106,7 +105,7 @@ class NeighbourLists:
     def resized(self, fluid_count: int) -> "NeighbourLists":
         """Return lists of the same kind for another number of fluid particles, not yet built."""
         lists = type(self)(
-            self.dim, fluid_count, self.ghost_count, self.support, self.skin, self.cluster, self.width, self.sight,
+            self.dim, fluid_count, self.ghost_count, self.support, self._thickest, self.cluster, self.width, self.sight,
             self.periods, walls_move=self.walls_move, half_edge=self.half_edge,
         )  # fmt: skip
         lists._is_near = self._is_near
@@ -121,6 +120,10 @@ class NeighbourLists:
     def search(self) -> tuple[Grid, IntArray, IntArray, IntArray, IntArray, Array, Array]:
         """What :func:`list_particles` searches, from ``grid`` to ``narrow``."""
         return self._grid, self._starts, _NO_ORDER, self._ghost_starts, self._ghost_order, self._shifts, self._narrow
+
+    def adapt_skin(self, stride: float) -> None:
+        """Choose the skin of the next lists: ten times the ``stride`` of the particles in a step, m, in its bounds."""
+        self.skin = min(max(10.0 * stride, self.THINNEST * self.support), self._thickest)
 
     def sort(self, rows: Array) -> IntArray:
         """Make the grid around the fluid ``rows`` (n, width) and return the order in which the rows must be put.
@@ -211,8 +214,7 @@ class NeighbourLists:
         interval
             time for which everything is taken to keep its speed, s.
         """
-        ahead = motion.speed * interval
-        walls = wall_speed * interval
+        ahead, walls = motion.speed * interval, wall_speed * interval
         if self.walls_move:
             walls += largest_wall_displacement(
                 rows[self.fluid_count :], self._ghost_reference, evaluation_points, self._point_reference
@@ -235,16 +237,14 @@ class NeighbourLists:
         return float(relative_displacement(rows, reference, self.dim, self._lower, edge, shape, boxes))
 
     def state(self) -> dict[str, Array]:
-        """Return copies of the positions from which the lists were built; they determine the lists."""
-        state = {
-            "fluid": self._fluid_reference.copy(),
-            "ghosts": self._ghost_reference.copy(),
-            "points": self._point_reference.copy(),
-        }
-        return state if self.sight is None else {**state, "sides": self._sides_reference.copy()}
+        """Return copies of the positions from which the lists were built; they determine the lists, with the skin."""
+        state = {"fluid": self._fluid_reference, "ghosts": self._ghost_reference, "points": self._point_reference}
+        state |= {"skin": np.array(self.skin)} | ({} if self.sight is None else {"sides": self._sides_reference})
+        return {name: array.copy() for name, array in state.items()}
 
     def restore(self, state: Mapping[str, Array], rows: Array) -> None:
         """Build the lists that :meth:`state` describes; the positions in ``rows`` (n + g, width) are overwritten."""
+        self.skin = float(state.get("skin", self._thickest))
         rows[: self.fluid_count, : self.dim] = state["fluid"]
         rows[self.fluid_count :, : self.dim] = state["ghosts"]
         if self.sight is not None:

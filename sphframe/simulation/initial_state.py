@@ -102,7 +102,7 @@ def initial_system(
     half_edge = 0.0 if components.walls.surface is None else 0.5 * components.wall_treatment.row_spacing * spacing
     lists = kind.lists_type(
         dim, len(position), boundary.count, parameters.support, kind.lists_type.SKIN * parameters.support,
-        cluster=LANES, width=0.75 * LANES ** (1.0 / dim) * spacing, sight=boundary.sight, periods=boundary.periods,
+        cluster=LANES, width=2.0 * spacing, sight=boundary.sight, periods=boundary.periods,
         walls_move=bool(boundary.bodies), half_edge=half_edge,
     )  # fmt: skip
     pressure = _initial_pressure(case, scene, components, parameters, boundary, position, members)

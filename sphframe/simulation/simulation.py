@@ -107,7 +107,7 @@ class Simulation(Observation):
             self.time_step = self._next_time_step(self._motion.speed)
             ahead = (1.2 + 0.5 * self.case.shifting) * self.time_step
             if not self.system.neighbours_remain_valid(self._motion, ahead):
-                self.system.find_neighbours()
+                self.system.find_neighbours(self._motion.speed * self.time_step)
             with naming_component(self.case, running=True):
                 self.components.integrator.step(self.system, self.time, self.time_step)
             self._shift(self._motion.speed, self.time_step)
@@ -145,7 +145,7 @@ class Simulation(Observation):
             if np.all(tolerated.outside):
                 raise SimulationError("all particles have left the domain; draw walls that hold the fluid")
             self.system.keep(~tolerated.outside)
-            self.system.find_neighbours()
+            self.system.find_neighbours(self._motion.speed * self.time_step)
         self._motion = self.system.largest_motion()
 
     @contextmanager

@@ -93,10 +93,11 @@ class FluidSystem(PackedSystem):
 
     # neighbours
 
-    def find_neighbours(self) -> None:
-        """Let particles pass open ends, put all in order, in the box that repeats itself, and list their neighbours."""
+    def find_neighbours(self, stride: float = 0.0) -> None:
+        """Pass open ends, put all in order in its box, list the neighbours; ``stride``: of particles in a step, m."""
         if self.channel is not None:
             self._exchange(self.channel)
+        self.lists.adapt_skin(stride)
         order = self._sort(self.rows)
         for array in (self.rows, self.rates, self.gradient, *(totals["fluid"] for totals in self.stored)):
             put_in_order(array, order, self._spare)
@@ -266,9 +267,8 @@ class FluidSystem(PackedSystem):
 
     def restore(self, state: Arrays) -> None:
         """Continue from what :meth:`state` returned for the same case."""
-        count = len(state["ids"])
-        if count != self.fluid_count:
-            self.keep(np.resize(np.arange(self.fluid_count), count))
+        if len(state["ids"]) != self.fluid_count:
+            self.keep(np.resize(np.arange(self.fluid_count), len(state["ids"])))
         self.ids = state["ids"].copy()
         self.lists.restore(_part(state, "lists"), self.rows)
         if self.channel is not None:

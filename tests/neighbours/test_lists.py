@@ -197,16 +197,27 @@ def test_walls_that_have_moved_invalidate_lists():
     assert not lists.remain_valid(rows, points, at_rest, wall_speed=0.0, interval=1.0)
 
 
+@pytest.mark.parametrize(("stride", "skin"), [(0.0, 0.02), (0.001, 0.02), (0.005, 0.05), (1.0, 0.1)])
+def test_the_skin_is_that_of_ten_steps_within_its_bounds(stride, skin):
+    lists = NeighbourLists(2, 70, 20, support=0.4, skin=0.1)
+    lists.adapt_skin(stride)
+    assert lists.skin == pytest.approx(skin)
+    assert lists.radius == pytest.approx(0.4 + skin)
+    assert lists.resized(60).skin == 0.1
+
+
 def test_restored_lists_are_those_that_were_saved():
     random = np.random.default_rng(7)
     rows, points = Columns.of(2).zeros(90), random.uniform(-1.0, 1.0, (20, 2))
     rows[:, :2] = random.uniform(-1.0, 1.0, (90, 2))
     lists = NeighbourLists(2, 70, 20, support=0.4, skin=0.1, cluster=8)
+    lists.adapt_skin(0.005)
     rows[:70] = rows[:70][lists.sort(rows)]
     lists.build(rows, points)
     saved = lists.state()
     other = lists.resized(70)
     other.restore(saved, np.zeros_like(rows))
+    assert other.skin == lists.skin == 0.05
     for name in ("fluid_counts", "ghost_counts", "point_counts"):
         np.testing.assert_array_equal(getattr(other, name), getattr(lists, name))
     for c, count in enumerate(lists.fluid_counts + lists.ghost_counts):

@@ -17,7 +17,7 @@ class DeviceLists(NeighbourLists):
     All arrays are those of the device; ``position`` (n, dim), m, are the fluid's where the lists were built.
     """
 
-    SKIN = 0.4
+    SKIN = THINNEST = 0.4
     """more than the processor's, as a search takes as long as several steps, and longer lists take hardly any time"""
 
     _list_particles, _mark_near, _list_points = Loop(list_particles), Loop(mark_near), Loop(list_points)

@@ -173,8 +173,9 @@ class CudaSystem(FluidSystem):
         """Return the positions (n + g, dim) of ``fluid`` (n, dim) and ghosts, m, on the processor."""
         return np.vstack([fluid, self._ghost_rows[:, self.columns.position]])
 
-    def find_neighbours(self) -> None:
+    def find_neighbours(self, stride: float = 0.0) -> None:
         """Sort the particles into cells on the processor, put them in order and list their neighbours on the device."""
+        self.lists.adapt_skin(stride)
         position = self._positions()
         order = self._sort(position)
         chosen = put(order)

@@ -98,36 +98,56 @@ class ImprovedShepard(BoundaryInterpolator):
     def point_weights(self, kernel: CompiledKernel, dim: int) -> WeightsFunction:
         """Return the weights function; it uses only the distances and the cut-off radius."""
         mu, attenuation = _as_power(self.mu), _as_power(self.attenuation)
+        power = max(mu, 4)  # exp(-36) is round-off beside a weight of 1; it is a power of exp(lowest), lowest >= -9
+        part, lowest = self.mu / power, -36.0 / power
         smallest = 1e-290  # 1 - s^attenuation may round to zero for s just below 1
-        negligible = -36.0  # relative to the weight of the nearest particle, exp(-36) is round-off
 
         def weights(offsets, distances, kernel_values, volumes, support, lift, out):  # type: ignore[no-untyped-def]
             n = distances.shape[0]
-            nearest = other = third = fourth = distances[0]
-            for j in range(0, n - 3, 4):  # four at a time, which do not wait for each other
-                nearest = min(nearest, distances[j])
-                other = min(other, distances[j + 1])
-                third = min(third, distances[j + 2])
-                fourth = min(fourth, distances[j + 3])
-            for j in range(n - n % 4, n):
-                nearest = min(nearest, distances[j])
-            nearest = min(min(nearest, other), min(third, fourth))
-            if nearest > 0.0:
-                s = nearest / support
-                largest_exponent = -s * s / max(1.0 - s**attenuation, smallest)
-                for j in range(n):  # no branches and no calls of the C library, so that the loop vectorises
-                    s = distances[j] / support
-                    exponent = mu * (-s * s / max(1.0 - s**attenuation, smallest) - largest_exponent)
-                    out[j] = (nearest / distances[j]) ** mu * fast_exp(max(exponent, negligible) / 4) ** 4
-            else:
-                for j in range(n):
-                    out[j] = 1.0 if distances[j] == 0.0 else 0.0
-            total = 0.0
+            per_support = 1.0 / support
+            for j in range(n):  # no branch, no call of the C library: it vectorises; and one division, which is slow
+                s = distances[j] * per_support
+                rest = max(1.0 - s**attenuation, smallest)
+                inverse = 1.0 / (s * rest)
+                beta = fast_exp(max(-part * s * s * s * inverse, lowest))
+                if power == mu:
+                    out[j] = (rest * inverse * beta) ** mu
+                else:
+                    out[j] = (rest * inverse) ** mu * beta**power
+            total = summed(out)
+            if not 1.0 < total < 1e200:  # no particle is near, or one is at the point
+                relative_weights(distances, support, out)
+                total = summed(out)
+            share = 1.0 / total
             for j in range(n):
-                total += out[j]
-            for j in range(n):
-                out[j] /= total
+                out[j] *= share
             return OK
+
+        def relative_weights(distances, support, out):  # type: ignore[no-untyped-def]
+            """Write weights relative to that of the nearest particle; where it is at the point, 1 there, 0 else."""
+            nearest = distances.min()
+            s = nearest / support
+            largest = -part * s * s / max(1.0 - s**attenuation, smallest)
+            for j in range(distances.shape[0]):
+                if nearest > 0.0:
+                    s = distances[j] / support
+                    exponent = -part * s * s / max(1.0 - s**attenuation, smallest) - largest
+                    out[j] = (nearest / distances[j]) ** mu * fast_exp(max(exponent, lowest)) ** power
+                else:
+                    out[j] = 1.0 if distances[j] == 0.0 else 0.0
+
+        def summed(values):  # type: ignore[no-untyped-def]
+            """Return the sum of ``values``, of four sums that do not wait for each other."""
+            n = values.shape[0]
+            first = second = third = fourth = 0.0
+            for j in range(0, n - 3, 4):
+                first += values[j]
+                second += values[j + 1]
+                third += values[j + 2]
+                fourth += values[j + 3]
+            for j in range(n - n % 4, n):
+                first += values[j]
+            return (first + second) + (third + fourth)
 
         return weights
 
