@@ -122,8 +122,9 @@ class NeighbourLists:
         return self._grid, self._starts, _NO_ORDER, self._ghost_starts, self._ghost_order, self._shifts, self._narrow
 
     def adapt_skin(self, stride: float) -> None:
-        """Choose the skin of the next lists: ten times the ``stride`` of the particles in a step, m, in its bounds."""
-        self.skin = min(max(10.0 * stride, self.THINNEST * self.support), self._thickest)
+        """Choose the skin of the next lists: ten times the ``stride`` of a particle in a step, m, within its bounds."""
+        if self.sight is None:  # what is seen changes with the search
+            self.skin = min(max(10.0 * stride, self.THINNEST * self.support), self._thickest)
 
     def sort(self, rows: Array) -> IntArray:
         """Make the grid around the fluid ``rows`` (n, width) and return the order in which the rows must be put.
@@ -267,10 +268,7 @@ class NeighbourLists:
         self, points: Array, rows: Array, lists: NDArray[np.uint32], counts: NDArray[np.uint32],
         ghosts: IntArray = _NO_ORDER,
     ) -> NDArray[np.uint32]:  # fmt: skip
-        """List the fluid near ``points`` in ``lists``, or in a longer array where that is too short.
-
-        ``ghosts`` (k,) are those that are at these points.
-        """
+        """List the fluid near ``points`` in ``lists``, or a longer array; ``ghosts`` (k,) are those at these points."""
         while True:
             longest = list_points(
                 self.periods.wrapped(points), rows, self.dim, self.radius, self._grid, self._starts, _NO_ORDER,

@@ -99,7 +99,10 @@ def initial_system(
     if components.wall_treatment.geometry is not WallGeometry.ROW:
         check_filling(start.filling, scene.walls, refuse=case.guards.filling == "stop")
     boundary, position, members = start.boundary, start.position, start.region
-    half_edge = 0.0 if components.walls.surface is None else 0.5 * components.wall_treatment.row_spacing * spacing
+    of_images = components.wall_treatment.geometry is WallGeometry.IMAGES
+    half_edge = spacing if of_images else 0.0  # a particle has images in all walls within the support
+    if components.walls.surface is not None:
+        half_edge = 0.5 * components.wall_treatment.row_spacing * spacing
     lists = kind.lists_type(
         dim, len(position), boundary.count, parameters.support, kind.lists_type.SKIN * parameters.support,
         cluster=LANES, width=2.0 * spacing, sight=boundary.sight, periods=boundary.periods,
@@ -121,7 +124,7 @@ def initial_system(
     parts = {**components.parts, "MASKED": boundary.sides is not None}
     loops = RateLoops(
         parts, components.compiled_kernel, components.walls, attracts=case.tension != "none",
-        images=components.wall_treatment.geometry is WallGeometry.IMAGES,
+        images=of_images,
         shifting=Shifting.of_case(case, components.wall_treatment, parts), compile_loop=kind.specialise,
     )  # fmt: skip
     states = WallStates(boundary, components.walls.rate, components.parts)

@@ -35,7 +35,7 @@ def box(dim, across, **parameters):
     system, c = simulation.system, simulation.columns
     rows = system.rows[: simulation.fluid_count]
     rows[:, c.position] += SPACING * random.uniform(-0.4, 0.4, (len(rows), dim))
-    rows[0, c.position.start] = 0.0  # on a wall, as after it has been put back
+    rows[0, c.position.start] = 1e-6 * SPACING  # on a wall; at 0, the direction to its own image is round-off
     rows[:, c.velocity] = random.normal(size=(len(rows), dim))
     rows[:, c.density] = 1000.0 + random.uniform(0.0, 5.0, len(rows))
     system.find_neighbours()

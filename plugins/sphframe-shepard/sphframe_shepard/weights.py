@@ -119,6 +119,8 @@ class ImprovedShepard(BoundaryInterpolator):
                 relative_weights(distances, support, out)
                 total = summed(out)
             share = 1.0 / total
+            if n == 1:
+                out[0] = share = 1.0
             for j in range(n):
                 out[j] *= share
             return OK
