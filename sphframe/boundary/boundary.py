@@ -43,7 +43,7 @@ class Boundary:
     reflection
         (g, dim, dim) maps the fluid's velocity relative to the wall to that of the ghost.
     velocity, acceleration
-        (g, dim) of the wall at each ghost; ``driving`` (g, dim): rho0 (f - a_wall), N/m^3.
+        (g, dim) of the wall at each ghost, zero (dim,) without bodies; ``driving`` (g, dim): rho0 (f - a_wall), N/m^3.
     volume
         (g,) of each ghost, m^dim.
     groups
@@ -97,7 +97,7 @@ class Boundary:
         self.periods = Periods.none(self.dim) if periods is None else periods
         self.bodies = dict(bodies)
         names = list(self.bodies)
-        self.wall, self.volume = drawn.wall, drawn.volume
+        self._drawn, self.wall, self.volume = drawn, drawn.wall, drawn.volume
         self.group_body = np.array([-1 if body is None else names.index(body) for body, _ in groups], np.int64)
         self.wall_body = np.array([-1 if wall.body is None else names.index(wall.body) for wall in walls], np.int64)
         self.body = self.wall_body[drawn.wall]
@@ -107,8 +107,7 @@ class Boundary:
         scales = spacing, layers * spacing
         self.sides = None if sides is None else WallSides(sides[0], self.group_body[sides[1]], self.centres, *scales)
         self.solid_contacts = SolidContacts(self.groups, self.group_body, self.centres, self.periods)
-        self._corners = Corners(self.groups, drawn, self.wall_body, self.centres, 1.5 * support)
-        self._drawn = drawn
+        self._corners = Corners(self.groups, drawn, self.body, self.wall_body, self.centres, 1.5 * support)
         self._drawn_reflection = np.tile(-np.eye(self.dim), (len(self.wall), 1, 1)) if no_slip else drawn.reflection
         own: Callable[[Array], Array] = np.copy if self.bodies else np.asarray
         self.position, self.mirror, self.foot = own(drawn.position), own(drawn.mirror), own(drawn.foot)
@@ -119,7 +118,8 @@ class Boundary:
         self.depth = np.einsum("gi,gi->g", self.position - self.foot, self.normal)
         height = np.einsum("gi,gi->g", self.foot - self.points, self.normal)
         self.height = np.maximum(height, 0.1 * self.depth)
-        self.velocity, self.acceleration, self.driving = (np.zeros_like(self.position) for _ in range(3))
+        self.velocity, self.driving = np.zeros((2, *self.position.shape))
+        self.acceleration = np.zeros_like(self.position) if self.bodies else np.zeros(self.dim)
         for k, wall in enumerate(walls):
             self.velocity[self.wall == k] = wall.surface_velocity or (0.0,) * self.dim
         self.statuses = np.full(self.count, int(Status.DRY), np.int64)

@@ -28,16 +28,17 @@ class Shares(NamedTuple):
 
 
 class Corners:
-    """Corners of the walls of ``groups``, whose ghosts are ``drawn``; body ``wall_body`` (walls,), ``centres``, m.
+    """Corners of the walls of ``groups``, whose ghosts ``drawn`` have a ``body`` (g,), as walls have; ``centres``, m.
 
     Walls of another group within ``reach`` (m) beyond their ends take part in the force on a ghost.
     """
 
     def __init__(
-        self, groups: Sequence[WallGroup], drawn: GhostPoints, wall_body: IntArray, centres: Array, reach: float
-    ) -> None:
+        self, groups: Sequence[WallGroup], drawn: GhostPoints, body: IntArray, wall_body: IntArray, centres: Array,
+        reach: float,
+    ) -> None:  # fmt: skip
         self._drawn = Shares(drawn.other, drawn.other_normal, drawn.other_dual)
-        self._body, self._wall_body, self._centres, self._reach = wall_body[drawn.wall], wall_body, centres, reach
+        self._body, self._wall_body, self._centres, self._reach = body, wall_body, centres, reach
         self._ends = [end for group in groups for end in group.ends()] if len(groups) > 1 else []
         self._turning = [k for k in range(len(centres)) if np.any(drawn.other[self._body == k] >= 0)]
 

@@ -83,7 +83,7 @@ class Filling:
         if len(lists.left):
             nothing = np.zeros(len(lists.left), np.uint32)
             self._fill(rows, lists.fluid_count, lists.left, lists.points, nothing, *of_boundary)
-            lists.left = lists.left[:0]
+            lists.left = lists.near[:0]
         if self._make_conjugate is not None:
             self._make_conjugate(
                 rows, lists.fluid_count, lists.near, *around, boundary.reflection, boundary.velocity, parameters

@@ -98,14 +98,3 @@ def sort_by_cell(rows, dim, grid, cells, tallies, starts, order):  # type: ignor
             if cells[i] >= 0:
                 order[tally[cells[i]]] = i
                 tally[cells[i]] += 1
-
-
-@threaded_if_long
-def put_in_order(rows, order, spare):  # type: ignore[no-untyped-def]
-    """Put the first rows of ``rows`` into ``order`` (n,), by way of ``spare``, which is at least as long and wide."""
-    for i in numba.prange(order.shape[0]):
-        for k in range(rows.shape[1]):
-            spare[i, k] = rows[order[i], k]
-    for i in numba.prange(order.shape[0]):
-        for k in range(rows.shape[1]):
-            rows[i, k] = spare[i, k]

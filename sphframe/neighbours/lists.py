@@ -97,8 +97,8 @@ class NeighbourLists:
         self._ghost_reference = self._point_reference = np.zeros((ghost_count, dim))
         self._grid = Grid(np.zeros(3), np.ones(3), np.ones(3, np.int64))
         self._starts, self._ghost_starts = np.zeros(2, np.int64), np.zeros(2, np.int64)
-        self._cells, self._order = np.zeros(fluid_count, np.int64), np.zeros(fluid_count, np.int64)
-        self._ghost_cells, self._ghost_order = np.zeros(ghost_count, np.int64), np.zeros(ghost_count, np.int64)
+        self._cells, self._order = np.zeros(fluid_count, np.int32), np.zeros(fluid_count, np.int64)
+        self._ghost_cells, self._ghost_order = np.zeros(ghost_count, np.int32), np.zeros(ghost_count, np.int64)
         self._tallies, self._boxes = np.zeros((_PARTS, 1), np.int64), np.zeros((_PARTS, 1, 6))
         self._lower, self._upper = np.zeros(dim), np.zeros(dim)
 
@@ -245,14 +245,14 @@ class NeighbourLists:
 
     def restore(self, state: Mapping[str, Array], rows: Array) -> None:
         """Build the lists that :meth:`state` describes; the positions in ``rows`` (n + g, width) are overwritten."""
-        self.skin = float(state.get("skin", self._thickest))
+        self.skin = float(state["skin"])
         rows[: self.fluid_count, : self.dim] = state["fluid"]
         rows[self.fluid_count :, : self.dim] = state["ghosts"]
         if self.sight is not None:
             self.sight.ends[:] = state["sides"]
         self.sort(rows)  # the particles are in order; this makes the cell grid
         self.build(rows, state["points"])
-        self.left = self.left[:0]  # they are as they were filled before the state was saved
+        self.left = self.near[:0]  # they are as they were filled before the state was saved
 
     def of_points(self, places: IntArray) -> tuple[IntArray, NDArray[np.uint32], NDArray[np.uint32]]:
         """Return ghosts (k,) at these ``places`` of ``near``, the lists (k, capacity) of their points, and lengths."""
@@ -283,7 +283,7 @@ class NeighbourLists:
 
 def room_for(longest: int) -> int:
     """Room for a list of ``longest`` neighbours and some compression."""
-    return -(-int(longest * 1.1 + 4) // 8) * 8
+    return -(-int(longest * 1.06 + 4) // 8) * 8
 
 
 @numba.njit(error_model="numpy", forceinline=True)

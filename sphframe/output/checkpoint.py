@@ -29,7 +29,7 @@ from sphframe.output.provenance import code, distributions, software
 if TYPE_CHECKING:
     from sphframe.cases import Case
 
-_FORMAT = 5
+_FORMAT = 6
 _HEADER = "checkpoint.json"
 _TYPES = {"f": "<f8", "i": "<i8"}
 

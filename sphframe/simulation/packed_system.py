@@ -29,8 +29,8 @@ class PackedSystem(System):
     columns: Columns
     bodies: BodyStates
     wall_states: WallStates
-    _start: Array
-    _total: Array
+    _start: Array = np.zeros((0, 1))
+    _total: Array = np.zeros((0, 1))
     _pressure_is_current: bool
     stored: Sequence[dict[str, Array]] = ()
 
@@ -56,6 +56,7 @@ class PackedSystem(System):
 
     def hold(self) -> None:
         """Remember the state as the start of the step."""
+        self._make_totals()
         self.hold_state(self.rows, self._start, self._total)
         self.bodies.hold()
         self.wall_states.hold()
@@ -82,7 +83,14 @@ class PackedSystem(System):
 
     def make_room(self, memory: int) -> None:
         """Make room for as many totals that are stored from step to step."""
+        if memory:
+            self._make_totals()
         self.stored = [{name: np.full_like(a, -1.0) for name, a in self._totals().items()} for _ in range(memory)]
+
+    def _make_totals(self) -> None:
+        """Make room for start and total of a step, which not every integrator needs."""
+        if len(self._total) != self.fluid_count:
+            self._start, self._total = np.zeros_like(self.rates), np.zeros_like(self.rates)
 
     def _totals(self, time: float = 0.0) -> dict[str, Array]:
         fluid, bodies, walls = self._total, self.bodies.total, self.wall_states.total

@@ -17,7 +17,7 @@ from sphframe.boundary.ghosts import Scratch
 from sphframe.boundary.wall_states import WallStates
 from sphframe.compiled import specialise
 from sphframe.compiled.threaded import LONG
-from sphframe.neighbours import LargestMotion, NeighbourLists, put_in_order
+from sphframe.neighbours import LargestMotion, NeighbourLists
 from sphframe.particles import Columns
 from sphframe.physics import LoopParameters, update_pressure
 from sphframe.simulation.body_contact import BodyContacts
@@ -87,8 +87,8 @@ class FluidSystem(PackedSystem):
         self._put_back = self.specialise(put_back, {**parts, "MARKS": boundary.solid_contacts.needed}, parallel=several)
         self.rows, self.lists, count = rows, lists, lists.fluid_count
         self.ids, self.turns = np.arange(count), np.zeros((count, dim), np.int64)
-        self.rates, self._start, self._total = (np.zeros((count, self.columns.density + 1)) for _ in range(3))
-        self.gradient, self._spare = np.zeros((count, dim)), np.zeros((count, self.columns.width))
+        self.rates = np.zeros((count, self.columns.density + 1))
+        self.gradient = np.zeros((count, dim))
         self._saved = (*_SAVED, "turns") if boundary.periods else _SAVED
 
     # neighbours
@@ -100,7 +100,7 @@ class FluidSystem(PackedSystem):
         self.lists.adapt_skin(stride)
         order = self._sort(self.rows)
         for array in (self.rows, self.rates, self.gradient, *(totals["fluid"] for totals in self.stored)):
-            put_in_order(array, order, self._spare)
+            array[: self.fluid_count] = array[order]
         self.lists.build(self.rows, self.boundary.points)
         if self.channel is not None:
             self.channel.waiting = self.channel.waiting[order]
@@ -146,7 +146,6 @@ class FluidSystem(PackedSystem):
         self.rows = np.vstack([self.rows[:n][kept], self.rows[n:]])
         self.ids, self.turns = self.ids[kept], self.turns[kept]
         self.rates, self.gradient = self.rates[kept], self.gradient[kept]
-        self._start, self._total, self._spare = self._start[kept], self._total[kept], self._spare[kept]
         for totals in self.stored:
             totals["fluid"] = totals["fluid"][kept]
         self.lists = self.lists.resized(self.fluid_count)

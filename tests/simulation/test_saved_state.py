@@ -10,17 +10,7 @@ from sphframe import Simulation
 from sphframe.cases import Custom
 from sphframe.geometry import BoxRegion, PolygonWall
 
-COMPUTED = (
-    "_start",
-    "total",
-    "_spare",
-    "_scratch",
-    "_scalars",
-    "_vectors",
-    "system.lists.",
-    "loops",
-    "_pressure_is_current",
-)
+COMPUTED = ("_start", "total", "_scratch", "_scalars", "_vectors", "system.lists.", "loops", "_pressure_is_current")
 """what is computed before it is read: scratch memory, and lists of neighbours within the same positions"""
 
 
