@@ -94,11 +94,16 @@ class MDBC(BoundaryInterpolator):
             for j in range(n):
                 for a in range(dim):
                     basis[a] = offsets[j, a] * per_h
+                slope = volumes[j] * out[j]
+                value = volumes[j] * kernel_values[j]
                 for a in range(terms):
-                    scaled = volumes[j] * basis[a]
-                    for b in range(dim):
-                        matrix[a * terms + b] += scaled * out[j] * basis[b]
-                    matrix[a * terms + dim] += scaled * kernel_values[j]
+                    scaled = slope * basis[a]
+                    for b in range(min(a + 1, dim)):
+                        matrix[a * terms + b] += scaled * basis[b]
+                    matrix[a * terms + dim] += value * basis[a]
+            for a in range(dim):
+                for b in range(a):
+                    matrix[b * terms + a] = matrix[a * terms + b]
             solution = local_array(terms)
             scale = 0.0
             for a in range(dim):

@@ -127,24 +127,20 @@ class SFDI(BoundaryInterpolator):
                 correction[a] = 0.0
                 for b in range(dim):
                     matrix[a * dim + b] = 0.0
-            for j in range(n):
-                for a in range(dim):
-                    correction[a] += kernel_values[j] * share * (offsets[j, a] * per_h)
+            for j in range(n):  # a loop of its own, which the compiler vectorises
                 square = 0.0
                 for a in range(dim):
                     square += ((offsets[j, a] - offsets[i, a]) * per_h) ** 2
-                out[j] = 0.0
                 q = math.sqrt(square)
-                if square > 0.0 and q < smoothing_lengths:
-                    out[j] = kernel_value(q) / square
-                    for a in range(dim):
-                        for b in range(a + 1):
-                            if coupled or a == b:
-                                matrix[a * dim + b] += (
-                                    out[j]
-                                    * ((offsets[j, a] - offsets[i, a]) * per_h)
-                                    * ((offsets[j, b] - offsets[i, b]) * per_h)
-                                )
+                value = kernel_value(min(q, smoothing_lengths)) / (square if square > 0.0 else 1.0)
+                out[j] = value if 0.0 < q < smoothing_lengths else 0.0
+            for j in range(n):
+                for a in range(dim):
+                    correction[a] += kernel_values[j] * share * (offsets[j, a] * per_h)
+                    scaled = out[j] * ((offsets[j, a] - offsets[i, a]) * per_h)
+                    for b in range(a + 1):
+                        if coupled or a == b:
+                            matrix[a * dim + b] += scaled * ((offsets[j, b] - offsets[i, b]) * per_h)
 
             # N = L D L^T, then correction := N^-1 R0
             scale = 0.0
