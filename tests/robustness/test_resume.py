@@ -203,7 +203,7 @@ def test_what_cannot_be_resumed_is_refused_with_a_reason(small: ModuleType, tmp_
 
     path.write_bytes(content)
     header = json.loads(zipfile.ZipFile(tmp_path / "other.nc.restart").read("checkpoint.json"))
-    assert header["format"] == 5
+    assert header["format"] == 6
 
 
 def test_an_older_copy_of_the_output_is_refused(small: ModuleType, tmp_path: Path) -> None:
