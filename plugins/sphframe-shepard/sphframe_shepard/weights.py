@@ -70,9 +70,9 @@ class ImprovedShepard(BoundaryInterpolator):
         Phi_j = phi_j^mu / sum_k phi_k^mu,   phi(s) = beta(s)/s,   beta(s) = exp[-s^2 / (1 - s^attenuation)]
 
     Departs from the paper: distances are divided by R, as the weights of the printed Eq. 20 depend on the unit of
-    length. The particle volume of Eq. 21 is left out, as the weights would not sum to one with it. Weights are computed
-    relative to that of the nearest particle, the largest one: near the cut-off phi underflows, and a single particle
-    there must have weight 1. At r_j = 0 the value is that of :class:`Shepard`.
+    length. The particle volume of Eq. 21 is left out, as the weights would not sum to one with it. Where no particle is
+    near, weights are computed relative to that of the nearest one: near the cut-off phi underflows, and a single
+    particle there must have weight 1. At r_j = 0 the value is that of :class:`Shepard`.
 
     Source: Huang et al., Water 11 (2019).
 
