@@ -167,13 +167,19 @@ def put_back(  # type: ignore[no-untyped-def]
         first = c * LANES
         present = min(LANES, fluid_count - first)
         deepest = local_array(LANES)
+        widest = 0.0
         for a in range(LANES):
             deepest[a] = -math.inf
+            i = first + min(a, present - 1)
+            widest = max(widest, squared_distance(rows, i, rows, first, columns.dim, PERIODIC, parameters))
+        within = (_NEAR * spacing + math.sqrt(widest)) ** 2
         begin = fluid_counts[c]
         end = begin + ghost_counts[c]
         for k in range(begin, end):
             j = lists[c, k]
             g = j - fluid_count
+            if squared_distance(rows, j, rows, first, columns.dim, PERIODIC, parameters) > within:
+                continue  # it is near none of them
             if squared_distance(rows, j, foot, g, columns.dim, PERIODIC, parameters) < first_layer:
                 for a in range(present):
                     i = first + a

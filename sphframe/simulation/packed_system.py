@@ -29,8 +29,7 @@ class PackedSystem(System):
     columns: Columns
     bodies: BodyStates
     wall_states: WallStates
-    _start: Array = np.zeros((0, 1))
-    _total: Array = np.zeros((0, 1))
+    _start = _total = np.zeros((0, 1))
     _pressure_is_current: bool
     stored: Sequence[dict[str, Array]] = ()
 
