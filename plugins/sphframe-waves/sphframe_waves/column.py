@@ -3,11 +3,11 @@
 import math
 from typing import Any, ClassVar, Literal, final
 
-import numpy as np
 import xarray as xr
 from pydantic import TypeAdapter
 
 from sphframe import Array, Case, InputError
+from sphframe.analysis import running_mean
 from sphframe.cases import Derived, ExactCase, Gauge, Scene, downward_gravity, quantity, with_default
 from sphframe.geometry import Box, BoxWall, Cylinder, DifferenceRegion, Wall
 from sphframe_waves.column_diffraction import ColumnDiffraction
@@ -15,8 +15,8 @@ from sphframe_waves.flume import SolitaryWaveFlume
 from sphframe_waves.solitary_wave_paddle import SolitaryWavePaddle
 
 _WALL: TypeAdapter[Any] = TypeAdapter(Wall)
-_MEAN = 0.1
-"""half of the time over which forces are averaged before their extremes are compared, times wavenumber and speed"""
+_MEAN = 0.2
+"""time over which forces are averaged before their extremes are compared, times wavenumber and speed"""
 
 
 @final
@@ -201,14 +201,15 @@ class SolitaryWaveColumn(ExactCase):
     def errors(self, dataset: xr.Dataset) -> dict[str, float]:
         """Return the errors of force and wave, without extremes that the run has not come to."""
         exact, run = self.exact(dataset), self.measured(dataset)
-        after = (dataset["probe_time"].values - self.arrival_time()) * self.paddle().wavenumber * self.paddle().speed
-        near = np.abs(after[:, None] - after) <= _MEAN
-        mean = near / near.sum(axis=1, keepdims=True)
-        force, theory = mean @ run["column_force"].values, mean @ exact["column_force"].values
+        time, rate = dataset["probe_time"].values, self.paddle().wavenumber * self.paddle().speed
+        force, theory = (
+            running_mean(time, series["column_force"], _MEAN / rate, self.probe_interval) for series in (run, exact)
+        )
+        after = (time[-1] - self.arrival_time()) * rate
         found = super().errors(dataset)
-        if after[-1] > 0.0:
+        if after > 0.0:
             found["wave_height"] = abs(float(run["elevation"].max()) / self.wave_height - 1.0)
             found["push"] = abs(float(force.max() / theory.max()) - 1.0)
-        if after[-1] > 1.5:
+        if after > 1.5:
             found["pull"] = abs(float(force.min() / theory.min()) - 1.0)
         return found
