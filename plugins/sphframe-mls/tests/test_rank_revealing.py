@@ -74,7 +74,11 @@ def test_is_a_least_squares_fit_in_the_space_of_the_neighbours(dim):
     run, tried = evaluator(Always(1e9), dim), []
 
     @FAST
-    @given(st.one_of(flattened_clouds(dim), clouds(dim, ("collinear", "nearly collinear", "spray", "thin sheet"))))
+    @given(
+        st.one_of(
+            flattened_clouds(dim), clouds(dim, ("collinear", "nearly collinear", "spray", "thin sheet")), clouds(dim)
+        )
+    )
     def prove(cloud):
         shares, deviations, directions = spread(cloud)
         if np.any((deviations > 0.0999) & (deviations < 0.2001)):
